@@ -1,0 +1,34 @@
+//! `subsurface build`.
+
+use super::material_set;
+use crate::failure::Failure;
+use clap::Args;
+use std::path::PathBuf;
+
+/// Compile a set of materials to WGSL, Rust bindings and a JSON manifest.
+///
+/// Writes subsurface.wgsl (the kernel module: all materials of the set), subsurface.rs (typed bindings that include
+/// it) and subsurface.json (what the module binds, entry points, the parameter table). The same materials give the
+/// same bytes. For Rust projects, `subsurface_codegen::Compiler` in build.rs does the same at every build.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  subsurface build --materials materials --out generated")]
+pub struct BuildArguments {
+    /// Directory of materials: one .ron file each, profiles in DIR/profiles.
+    #[arg(long, value_name = "DIR", default_value = material_set::DEFAULT_DIRECTORY)]
+    pub materials: PathBuf,
+    /// Directory for the three files; created if missing. A file that would not change is left alone.
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+}
+
+/// Runs the command.
+pub fn run(arguments: &BuildArguments) -> Result<(), Failure> {
+    let compilation = material_set::compile(&arguments.materials)?;
+    compilation.write_to(&arguments.out).map_err(|error| Failure::reported(error.to_string()))?;
+    for extension in ["wgsl", "rs", "json"] {
+        println!("{}", arguments.out.join("subsurface").with_extension(extension).display());
+    }
+    Ok(())
+}

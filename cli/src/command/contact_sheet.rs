@@ -1,0 +1,137 @@
+//! `subsurface contact-sheet`.
+
+use super::material_set;
+use super::render::{DEFAULT_MATERIAL, PictureFile};
+use super::view::load_scene;
+use crate::draw::{self, DEFAULT_TAPS, Frame, LARGEST_TAPS};
+use crate::failure::Failure;
+use crate::picture::contact_sheet::{Tile, compose};
+use crate::picture::{file, write_png};
+use crate::progress::bar;
+use crate::scene::camera::{Camera, DEFAULT_FOV_Y_DEGREES, Light, Size};
+use clap::{Args, value_parser};
+use std::path::{Path, PathBuf};
+
+/// Draw one scene with every profile model, side by side with labels.
+///
+/// The tiles: no subsurface, Gaussian sum, Burley, polynomial, exponential + dipole. They differ in the profile alone;
+/// everything else of the material stays.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  subsurface contact-sheet --out sheet.png
+  subsurface contact-sheet --mesh head.glb --material skin --size 640x800 --taps 33 --out sheet.png")]
+pub struct ContactSheetArguments {
+    /// Directory of materials: one .ron file each, profiles in DIR/profiles.
+    #[arg(long, value_name = "DIR", default_value = material_set::DEFAULT_DIRECTORY)]
+    pub materials: PathBuf,
+    /// glTF file, binary or text, in metres; by default the procedural bust.
+    #[arg(long, value_name = "FILE.glb")]
+    pub mesh: Option<PathBuf>,
+    /// Material of the set; it must give its mean free path.
+    #[arg(long, value_name = "NAME", default_value = DEFAULT_MATERIAL)]
+    pub material: String,
+    /// Size of each tile in pixels.
+    #[arg(long, value_name = "WxH", default_value = "480x600")]
+    pub size: Size,
+    /// Samples per pixel of the subsurface pass.
+    #[arg(long, value_name = "N", default_value_t = DEFAULT_TAPS, value_parser = value_parser!(u32).range(1..=i64::from(LARGEST_TAPS)))]
+    pub taps: u32,
+    /// The sheet: .png.
+    #[arg(long, value_name = "FILE.png", value_parser = png)]
+    pub out: PathBuf,
+}
+
+fn png(text: &str) -> Result<PathBuf, String> {
+    match PictureFile::parse(text) {
+        Ok(PictureFile::Png(path)) => Ok(path),
+        _ => Err("the name must end in .png".into()),
+    }
+}
+
+/// The tiles: caption, and the stem of the profile; without one, no subsurface pass.
+const TILES: [(&str, Option<&str>); 5] = [
+    ("no subsurface", None),
+    ("Gaussian sum", Some("gaussian_skin")),
+    ("Burley", Some("burley_searchlight")),
+    ("polynomial", Some("liang_2023")),
+    ("exponential + dipole", Some("exponential_dipole_searchlight")),
+];
+
+/// Tiles in a row.
+const COLUMNS: u32 = 5;
+
+/// Runs the command.
+pub fn run(arguments: &ContactSheetArguments) -> Result<(), Failure> {
+    file::folder_of(&arguments.out)?;
+    let original = material_set::compile(&arguments.materials)?;
+    material_set::number(&original, &arguments.material)?;
+    // One set, hence one kernel module, holds all variants.
+    let materials = material_set::compile_files(with_variants(&original.files_read, arguments)?)?;
+    let scene = load_scene(arguments.mesh.as_deref())?;
+    let camera = Camera::framing(&scene.bounds, arguments.size.aspect(), DEFAULT_FOV_Y_DEGREES);
+    let progress = bar(TILES.len() as u64, "drawing");
+    let mut tiles = Vec::new();
+    for (caption, profile) in TILES {
+        let name = profile.map_or_else(|| arguments.material.clone(), variant_name);
+        let material = material_set::number(&materials, &name)?;
+        let drawn = draw::draw(&Frame {
+            scene: &scene,
+            materials: &materials,
+            material_of_object: &vec![material; scene.objects.len()],
+            camera,
+            lights: &Light::DEFAULT,
+            size: arguments.size,
+            taps: arguments.taps,
+            subsurface: profile.is_some(),
+            wants_aovs: false,
+        })?;
+        tiles.push(Tile { picture: drawn.display, caption: caption.to_owned() });
+        let total: f64 = drawn.timings.iter().map(|(_, time)| time.as_secs_f64()).sum();
+        let passes: Vec<String> = drawn
+            .timings
+            .iter()
+            .map(|(pass, time)| format!("{pass} {:.3} ms", time.as_secs_f64() * 1e3))
+            .collect();
+        progress.suspend(|| println!("{caption}: {:.3} ms ({})", total * 1e3, passes.join(", ")));
+        progress.inc(1);
+    }
+    progress.finish_and_clear();
+    let title = format!("{} / {} taps", arguments.material, arguments.taps);
+    if let Some(sheet) = compose(&title, &tiles, COLUMNS) {
+        write_png(&arguments.out, &sheet)?;
+        println!("{}", arguments.out.display());
+    }
+    Ok(())
+}
+
+/// Name of the variant with the profile `stem`; unlikely to be taken.
+fn variant_name(stem: &str) -> String {
+    format!("contact_sheet_{stem}")
+}
+
+/// The files of the set, and for each tile a material that inherits everything but the profile.
+fn with_variants(
+    files: &[PathBuf],
+    arguments: &ContactSheetArguments,
+) -> Result<Vec<(PathBuf, Vec<u8>)>, Failure> {
+    let mut all = Vec::new();
+    for path in files {
+        let bytes = std::fs::read(path).map_err(|reason| {
+            Failure::new(
+                format!("cannot read {}: {reason}", path.display()),
+                "the file changed meanwhile: try again",
+            )
+        })?;
+        all.push((path.strip_prefix(&arguments.materials).unwrap_or(path).to_owned(), bytes));
+    }
+    for stem in TILES.iter().filter_map(|(_, stem)| *stem) {
+        all.push(variant(stem, &arguments.material));
+    }
+    Ok(all)
+}
+
+fn variant(stem: &str, base: &str) -> (PathBuf, Vec<u8>) {
+    let text = format!("Material(base: \"{base}\", profile: \"{stem}\")\n");
+    (Path::new(&variant_name(stem)).with_extension("ron"), text.into_bytes())
+}

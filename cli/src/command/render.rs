@@ -1,0 +1,141 @@
+//! `subsurface render`.
+
+use super::material_set;
+use super::view::{ViewArguments, load_scene};
+use crate::draw::{self, DEFAULT_TAPS, Drawn, Frame, LARGEST_TAPS};
+use crate::failure::Failure;
+use crate::picture::{exr, file, write_png};
+use crate::progress::Spinner;
+use crate::scene::Scene;
+use crate::scene::camera::Size;
+use clap::{Args, value_parser};
+use std::path::{Path, PathBuf};
+use subsurface_codegen::Compilation;
+
+/// The material when none is given.
+pub(super) const DEFAULT_MATERIAL: &str = "skin";
+
+/// Draw a scene with a material: the procedural bust, or a glTF file.
+///
+/// glTF is read with node transforms, base colours and normal maps, in metres by its standard. An object whose glTF
+/// material has the name of a material of the set takes that one, all others take --material.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  subsurface render --out bust.png
+  subsurface render --material marble --size 1920x1080 --taps 33 --out bust.exr --aov buffers
+  subsurface render --mesh head.glb --camera 0.3,0.1,0.9 --target 0,0.05,0 --light 0.7,-0.5,-0.5,2.5 --out head.png
+  subsurface render --mesh head.glb --no-subsurface --out plain.png")]
+pub struct RenderArguments {
+    /// Directory of materials: one .ron file each, profiles in DIR/profiles.
+    #[arg(long, value_name = "DIR", default_value = material_set::DEFAULT_DIRECTORY)]
+    pub materials: PathBuf,
+    /// glTF file, binary or text, in metres; by default the procedural bust.
+    #[arg(long, value_name = "FILE.glb")]
+    pub mesh: Option<PathBuf>,
+    /// Material of the set.
+    #[arg(long, value_name = "NAME", default_value = DEFAULT_MATERIAL)]
+    pub material: String,
+    /// Size of the picture in pixels.
+    #[arg(long, value_name = "WxH", default_value = "1280x720")]
+    pub size: Size,
+    /// Samples per pixel of the subsurface pass.
+    #[arg(long, value_name = "N", default_value_t = DEFAULT_TAPS, value_parser = value_parser!(u32).range(1..=i64::from(LARGEST_TAPS)))]
+    pub taps: u32,
+    /// Camera and lights.
+    #[command(flatten)]
+    pub view: ViewArguments,
+    /// Leave the subsurface pass out: what a plain diffuse surface looks like.
+    #[arg(long)]
+    pub no_subsurface: bool,
+    /// The picture: .png (tone-mapped, 8-bit sRGB) or .exr (linear, 32-bit float).
+    #[arg(long, value_name = "FILE.png|FILE.exr", value_parser = PictureFile::parse)]
+    pub out: PictureFile,
+    /// Also write the intermediate targets as EXR files to this directory; created if missing.
+    #[arg(long, value_name = "DIR")]
+    pub aov: Option<PathBuf>,
+}
+
+/// A path whose ending says in which format a picture is written.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum PictureFile {
+    /// 8-bit sRGB.
+    Png(PathBuf),
+    /// 32-bit linear.
+    Exr(PathBuf),
+}
+
+impl PictureFile {
+    /// By the ending of the file's name.
+    pub fn parse(text: &str) -> Result<Self, String> {
+        let path = PathBuf::from(text);
+        let extension = path.extension().map(|extension| extension.to_string_lossy().to_ascii_lowercase());
+        match extension.as_deref() {
+            Some("png") => Ok(Self::Png(path)),
+            Some("exr") => Ok(Self::Exr(path)),
+            _ => Err("the name must end in .png or .exr".into()),
+        }
+    }
+
+    /// The path.
+    pub fn path(&self) -> &Path {
+        match self {
+            Self::Png(path) | Self::Exr(path) => path,
+        }
+    }
+}
+
+/// Runs the command.
+pub fn run(arguments: &RenderArguments) -> Result<(), Failure> {
+    // Everything that can fail at once comes before what takes long.
+    file::folder_of(arguments.out.path())?;
+    let materials = material_set::compile(&arguments.materials)?;
+    let material = material_set::number(&materials, &arguments.material)?;
+    let scene = load_scene(arguments.mesh.as_deref())?;
+    let drawn = {
+        let _spinner = Spinner::new("drawing");
+        draw::draw(&Frame {
+            scene: &scene,
+            materials: &materials,
+            material_of_object: &material_of_object(&scene, &materials, material),
+            camera: arguments.view.camera(&scene, arguments.size)?,
+            lights: &arguments.view.lights(),
+            size: arguments.size,
+            taps: arguments.taps,
+            subsurface: !arguments.no_subsurface,
+            wants_aovs: arguments.aov.is_some(),
+        })?
+    };
+    save(arguments, &drawn)
+}
+
+/// The material of each object: by its glTF material's name, else `fallback`.
+pub(super) fn material_of_object(scene: &Scene, materials: &Compilation, fallback: u32) -> Vec<u32> {
+    let of = |name: Option<&str>| {
+        name.and_then(|name| materials.set.index_of(name)).map_or(fallback, |n| n as u32)
+    };
+    scene.objects.iter().map(|object| of(object.surface.material_name.as_deref())).collect()
+}
+
+fn save(arguments: &RenderArguments, drawn: &Drawn) -> Result<(), Failure> {
+    match &arguments.out {
+        PictureFile::Png(path) => write_png(path, &drawn.display)?,
+        PictureFile::Exr(path) => exr::write_exr(path, &drawn.linear)?,
+    }
+    println!("{}", arguments.out.path().display());
+    if let Some(folder) = &arguments.aov {
+        std::fs::create_dir_all(folder).map_err(|reason| {
+            let message = format!("cannot create {}: {reason}", folder.display());
+            Failure::new(message, "name a folder that may be written to with --aov DIR")
+        })?;
+        for (name, picture) in &drawn.aovs {
+            let path = folder.join(name).with_extension("exr");
+            exr::write_exr(&path, picture)?;
+            println!("{}", path.display());
+        }
+    }
+    for (pass, time) in &drawn.timings {
+        eprintln!("{pass}: {:.3} ms", time.as_secs_f64() * 1e3);
+    }
+    Ok(())
+}

@@ -1,0 +1,78 @@
+//! Scenes and views as several commands take them.
+
+use super::number;
+use crate::failure::{Failure, warning};
+use crate::progress::Spinner;
+use crate::scene::camera::{Camera, DEFAULT_FOV_Y_DEGREES, Light, Size, Triple};
+use crate::scene::{Scene, bust, gltf};
+use clap::Args;
+use glam::Vec3;
+use std::path::Path;
+
+/// The scene in `mesh`, or the bust; prints warnings.
+pub(super) fn load_scene(mesh: Option<&Path>) -> Result<Scene, Failure> {
+    let Some(path) = mesh else {
+        let _spinner = Spinner::new("sculpting the bust");
+        return Ok(bust::scene(bust::CELL_MM));
+    };
+    let spinner = Spinner::new(format!("reading {}", path.display()));
+    let loaded = gltf::load(path, |what| spinner.say(format!("reading {}: {what}", path.display())));
+    drop(spinner);
+    let loaded = loaded?;
+    for suspect in &loaded.warnings {
+        eprintln!("{}\n", warning(suspect));
+    }
+    Ok(loaded.scene)
+}
+
+/// Camera and lights.
+#[derive(Debug, Args)]
+pub struct ViewArguments {
+    /// Where the camera stands, in metres; by default where the whole scene is in view, 35° to the right of its front.
+    #[arg(long, value_name = "x,y,z", allow_hyphen_values = true)]
+    pub camera: Option<Triple>,
+    /// The point in the middle of the picture, in metres; by default the middle of the scene. Up is +y.
+    #[arg(long, value_name = "x,y,z", allow_hyphen_values = true)]
+    pub target: Option<Triple>,
+    /// Vertical field of view in degrees.
+    #[arg(long, value_name = "D", default_value_t = DEFAULT_FOV_Y_DEGREES, value_parser = number::fov_y_degrees, allow_hyphen_values = true)]
+    pub fov_y_degrees: f32,
+    /// A directional light: the way in which it travels, from the light to the scene, and its irradiance (default 1).
+    /// May be given several times; by default a key light and a rim light from behind.
+    #[arg(long = "light", value_name = "dx,dy,dz[,intensity]", allow_hyphen_values = true)]
+    pub lights: Vec<Light>,
+}
+
+impl ViewArguments {
+    /// The camera for a scene; what is not given frames the scene.
+    pub fn camera(&self, scene: &Scene, size: Size) -> Result<Camera, Failure> {
+        let mut camera = Camera::framing(&scene.bounds, size.aspect(), self.fov_y_degrees);
+        if let Some(Triple(target)) = self.target {
+            // Keep the direction and the distance.
+            let offset = Vec3::from(camera.position) - Vec3::from(camera.target);
+            camera.position = (Vec3::from(target) + offset).to_array();
+            camera.target = target;
+        }
+        if let Some(Triple(position)) = self.camera {
+            camera.position = position;
+        }
+        let direction = Vec3::from(camera.target) - Vec3::from(camera.position);
+        match direction.try_normalize() {
+            None => Err(Failure::new(
+                "the camera stands on its target",
+                "give --camera and --target different points, in metres",
+            )),
+            // Closer to the vertical than this, right and up are lost in rounding.
+            Some(direction) if direction.y.abs() > 0.9999 => Err(Failure::new(
+                "the camera looks straight up or down, so its horizon is not defined",
+                "move --camera a little to the side",
+            )),
+            Some(_) => Ok(camera),
+        }
+    }
+
+    /// The lights, or the default ones.
+    pub fn lights(&self) -> Vec<Light> {
+        if self.lights.is_empty() { Light::DEFAULT.to_vec() } else { self.lights.clone() }
+    }
+}

@@ -1,0 +1,214 @@
+//! Where one looks from, and where the light comes from.
+
+use super::Bounds;
+use glam::Vec3;
+use std::str::FromStr;
+
+/// Vertical field of view when none is asked for (degrees): about that of an 85 mm lens, the portrait's.
+pub const DEFAULT_FOV_Y_DEGREES: f32 = 24.0;
+
+/// A perspective camera in world space; up is +y.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Camera {
+    /// Where the camera stands (m).
+    pub position: [f32; 3],
+    /// The point that appears in the middle of the picture (m).
+    pub target: [f32; 3],
+    /// Vertical field of view (degrees), in (0, 180).
+    pub fov_y_degrees: f32,
+}
+
+impl Camera {
+    /// The whole of `bounds` in a picture of `aspect` = width / height, from 35° to the right of +z and a little above.
+    pub fn framing(bounds: &Bounds, aspect: f32, fov_y_degrees: f32) -> Self {
+        let direction = Vec3::new(35f32.to_radians().sin(), 0.08, 35f32.to_radians().cos()).normalize();
+        let half_y = 0.5 * fov_y_degrees.to_radians();
+        let half_x = (half_y.tan() * aspect).atan();
+        let centre = Vec3::from(bounds.centre());
+        let right = Vec3::Y.cross(direction).normalize();
+        let up = direction.cross(right);
+        // The nearest distance from which every corner of the box is inside all four planes, and 6 % of air.
+        let mut distance: f32 = 0.0;
+        for corner in 0..8 {
+            let pick = |axis: usize| {
+                if corner >> axis & 1 == 0 { bounds.minimum[axis] } else { bounds.maximum[axis] }
+            };
+            let offset = Vec3::new(pick(0), pick(1), pick(2)) - centre;
+            let (x, y, z) = (offset.dot(right).abs(), offset.dot(up).abs(), offset.dot(direction));
+            distance = distance.max(z + x / half_x.tan()).max(z + y / half_y.tan());
+        }
+        let position = centre + direction * distance * 1.06;
+        Self { position: position.to_array(), target: centre.to_array(), fov_y_degrees }
+    }
+}
+
+/// A light so far away that all its rays are parallel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Light {
+    /// Unit vector in which the light travels: from the light to the scene.
+    pub direction: [f32; 3],
+    /// Irradiance on a surface that faces the light, ≥ 0; 1 lights white up to white.
+    pub intensity: f32,
+}
+
+impl Light {
+    /// Key light from the upper left of the default camera, which lays the shadow's edge over the face, and a rim light from
+    /// behind that shines through the ear.
+    pub const DEFAULT: [Light; 2] = [
+        // Unit vectors to the last digit that f32 has; see the test.
+        Light { direction: [0.662_266_2, -0.529_812_93, -0.529_812_93], intensity: 2.6 },
+        Light { direction: [-0.702_247, -0.117_041_16, 0.702_247], intensity: 2.2 },
+    ];
+}
+
+/// Three numbers with commas between: a point (m) or a direction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Triple(pub [f32; 3]);
+
+impl FromStr for Triple {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match numbers(text)?[..] {
+            [x, y, z] => Ok(Self([x, y, z])),
+            ref other => Err(format!("expected three numbers `x,y,z`, found {}", other.len())),
+        }
+    }
+}
+
+impl FromStr for Light {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let (direction, intensity) = match numbers(text)?[..] {
+            [x, y, z] => (Vec3::new(x, y, z), 1.0),
+            [x, y, z, intensity] => (Vec3::new(x, y, z), intensity),
+            ref other => {
+                return Err(format!(
+                    "expected `dx,dy,dz` or `dx,dy,dz,intensity`, found {} numbers",
+                    other.len()
+                ));
+            }
+        };
+        let direction = direction
+            .try_normalize()
+            .ok_or("the direction is zero; give the way in which the light travels")?;
+        if intensity < 0.0 {
+            return Err(format!("the intensity {intensity} is negative"));
+        }
+        Ok(Self { direction: direction.to_array(), intensity })
+    }
+}
+
+/// Finite numbers with commas between.
+fn numbers(text: &str) -> Result<Vec<f32>, String> {
+    text.split(',')
+        .map(|part| {
+            let part = part.trim();
+            let number: f32 = part.parse().map_err(|_| format!("`{part}` is not a number"))?;
+            if number.is_finite() { Ok(number) } else { Err(format!("`{part}` is not finite")) }
+        })
+        .collect()
+}
+
+/// A picture's size in pixels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Size {
+    /// Width in pixels, > 0.
+    pub width: u32,
+    /// Height in pixels, > 0.
+    pub height: u32,
+}
+
+impl Size {
+    /// Largest edge that is accepted at all (pixels); the device has its own limit below.
+    pub const LARGEST: u32 = 32_768;
+
+    /// Width over height.
+    pub fn aspect(self) -> f32 {
+        self.width as f32 / self.height as f32
+    }
+
+    /// Width times height.
+    pub fn pixels(self) -> usize {
+        self.width as usize * self.height as usize
+    }
+}
+
+impl FromStr for Size {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let expected = || format!("expected WIDTHxHEIGHT in pixels, for example 1280x720, found `{text}`");
+        let (width, height) = text.split_once(['x', 'X']).ok_or_else(expected)?;
+        let edge = |part: &str| part.trim().parse::<u32>().map_err(|_| expected());
+        let size = Self { width: edge(width)?, height: edge(height)? };
+        if size.width == 0 || size.height == 0 {
+            return Err("a picture needs at least 1x1 pixels, for example 1280x720".into());
+        }
+        if size.width.max(size.height) > Self::LARGEST {
+            return Err(format!(
+                "an edge of more than {} pixels fits no device; ask for less",
+                Self::LARGEST
+            ));
+        }
+        Ok(size)
+    }
+}
+
+impl std::fmt::Display for Size {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{}x{}", self.width, self.height)
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_light_is_a_unit_direction_and_an_intensity() {
+        let light: Light = "0, -2, 0".parse().unwrap();
+        assert_eq!(light, Light { direction: [0.0, -1.0, 0.0], intensity: 1.0 });
+        assert_eq!("0,0,5,0.5".parse::<Light>().unwrap().intensity, 0.5);
+        for wrong in ["", "1,2", "0,0,0", "1,0,0,-1", "1,0,x", "inf,0,0", "NaN,0,0", "1,2,3,4,5"] {
+            assert!(wrong.parse::<Light>().is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn default_lights_are_unit_vectors() {
+        for light in Light::DEFAULT {
+            // A few roundings of f32.
+            assert!((Vec3::from(light.direction).length() - 1.0).abs() < 1e-6);
+        }
+    }
+
+    #[test]
+    fn a_size_has_two_edges_above_zero() {
+        assert_eq!("1280x720".parse(), Ok(Size { width: 1280, height: 720 }));
+        for wrong in ["0x0", "0x1", "1x0", "1280", "x", "-1x1", "1x1x1", "99999x1", "1.5x2"] {
+            assert!(wrong.parse::<Size>().is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn framing_holds_every_corner_in_the_picture() {
+        let bounds = Bounds { minimum: [-0.2, -0.1, -0.3], maximum: [0.1, 0.4, 0.2] };
+        for aspect in [0.3, 1.0, 2.5] {
+            let camera = Camera::framing(&bounds, aspect, 30.0);
+            let to_target = (Vec3::from(camera.target) - Vec3::from(camera.position)).normalize();
+            let right = to_target.cross(Vec3::Y).normalize();
+            let up = right.cross(to_target);
+            for corner in 0..8 {
+                let at = |axis: usize| [bounds.minimum, bounds.maximum][corner >> axis & 1][axis];
+                let offset = Vec3::new(at(0), at(1), at(2)) - Vec3::from(camera.position);
+                let depth = offset.dot(to_target);
+                let edge = depth * 15f32.to_radians().tan();
+                assert!(offset.dot(up).abs() < edge);
+                assert!(offset.dot(right).abs() < edge * aspect);
+            }
+        }
+    }
+}

@@ -1,0 +1,139 @@
+//! What is drawn: plain data in world space, metres, without a trace of the GPU.
+
+pub mod bust;
+pub mod camera;
+pub mod gltf;
+
+/// Everything to draw.
+#[derive(Clone, Debug, Default)]
+pub struct Scene {
+    /// The objects, in the order of the file they came from.
+    pub objects: Vec<Object>,
+    /// The box about all vertices.
+    pub bounds: Bounds,
+}
+
+impl Scene {
+    /// A scene of these objects; measures its bounds.
+    pub fn new(objects: Vec<Object>) -> Self {
+        let mut bounds = Bounds::default();
+        for position in objects.iter().flat_map(|object| &object.mesh.positions) {
+            bounds.include(*position);
+        }
+        Self { objects, bounds }
+    }
+
+    /// How many triangles all objects have together.
+    pub fn triangle_count(&self) -> usize {
+        self.objects.iter().map(|object| object.mesh.indices.len() / 3).sum()
+    }
+}
+
+/// An axis-aligned box in world space, metres.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bounds {
+    /// The corner with the smallest coordinates (m).
+    pub minimum: [f32; 3],
+    /// The corner with the largest coordinates (m).
+    pub maximum: [f32; 3],
+}
+
+impl Default for Bounds {
+    /// The empty box: it holds no point, and including a point makes it that point.
+    fn default() -> Self {
+        Self { minimum: [f32::INFINITY; 3], maximum: [f32::NEG_INFINITY; 3] }
+    }
+}
+
+impl Bounds {
+    /// Grows the box to hold `position` (m).
+    pub fn include(&mut self, position: [f32; 3]) {
+        self.minimum = std::array::from_fn(|axis| self.minimum[axis].min(position[axis]));
+        self.maximum = std::array::from_fn(|axis| self.maximum[axis].max(position[axis]));
+    }
+
+    /// Middle of the box (m).
+    pub fn centre(&self) -> [f32; 3] {
+        std::array::from_fn(|axis| 0.5 * (self.minimum[axis] + self.maximum[axis]))
+    }
+
+    /// Edge lengths of the box (m).
+    pub fn size(&self) -> [f32; 3] {
+        std::array::from_fn(|axis| self.maximum[axis] - self.minimum[axis])
+    }
+
+    /// Radius of the ball about the box (m).
+    pub fn radius(&self) -> f32 {
+        0.5 * glam::Vec3::from(self.size()).length()
+    }
+}
+
+/// One mesh with one surface.
+#[derive(Clone, Debug, Default)]
+pub struct Object {
+    /// Name in its file, or a description; for messages and labels.
+    pub name: String,
+    /// The triangles.
+    pub mesh: Mesh,
+    /// What is on them.
+    pub surface: Surface,
+}
+
+/// Triangles in world space.
+///
+/// The three vertex lists are equally long; seen from outside, a triangle's corners run counter-clockwise.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Mesh {
+    /// Positions (m).
+    pub positions: Vec<[f32; 3]>,
+    /// Unit normals, outwards.
+    pub normals: Vec<[f32; 3]>,
+    /// Texture coordinates, (0, 0) at the upper left of the image; all zero where the file has none.
+    pub texture_coordinates: Vec<[f32; 2]>,
+    /// Three indices into the lists per triangle.
+    pub indices: Vec<u32>,
+}
+
+/// Colours and relief of a surface; how it scatters is the material's business.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Surface {
+    /// Linear RGBA factor on the base colour, each in [0, 1].
+    pub base_colour_factor: [f32; 4],
+    /// Base colour image, sRGB.
+    pub base_colour: Option<Image>,
+    /// Tangent-space normal map, linear; x to increasing u, y to decreasing v (glTF's convention).
+    pub normal_map: Option<Image>,
+    /// Factor on the normal map's x and y.
+    pub normal_scale: f32,
+    /// Name of the material in the file.
+    pub material_name: Option<String>,
+}
+
+impl Default for Surface {
+    fn default() -> Self {
+        Self {
+            base_colour_factor: [1.0; 4],
+            base_colour: None,
+            normal_map: None,
+            normal_scale: 1.0,
+            material_name: None,
+        }
+    }
+}
+
+/// An RGBA8 image; whether its numbers are sRGB or linear is said where it is used.
+#[derive(Clone, PartialEq, Eq)]
+pub struct Image {
+    /// Width in pixels, > 0.
+    pub width: u32,
+    /// Height in pixels, > 0.
+    pub height: u32,
+    /// Rows from the top, four bytes per pixel.
+    pub rgba: Vec<u8>,
+}
+
+impl std::fmt::Debug for Image {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "Image({}x{})", self.width, self.height)
+    }
+}

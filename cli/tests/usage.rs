@@ -1,0 +1,101 @@
+//! How the binary is called: help, exit codes, arguments out of range.
+#![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
+
+use std::process::{Command, Output};
+
+fn subsurface(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_subsurface")).args(arguments).output().unwrap()
+}
+
+fn stderr(output: &Output) -> String {
+    String::from_utf8(output.stderr.clone()).unwrap()
+}
+
+const COMMANDS: [&[&str]; 7] = [
+    &["render"],
+    &["check"],
+    &["build"],
+    &["profile", "eval"],
+    &["profile", "sample"],
+    &["diffuse"],
+    &["contact-sheet"],
+];
+
+#[test]
+fn every_command_has_help_with_an_example_of_itself() {
+    for command in COMMANDS {
+        let output = subsurface(&[command, &["--help"]].concat());
+        assert_eq!(output.status.code(), Some(0));
+        let help = String::from_utf8(output.stdout).unwrap();
+        let example = format!("Examples:\n  subsurface {}", command.join(" "));
+        assert!(help.contains(&example), "{help}");
+    }
+}
+
+#[test]
+fn a_missing_argument_is_a_usage_error() {
+    assert_eq!(subsurface(&[]).status.code(), Some(2));
+    for command in COMMANDS {
+        assert_eq!(subsurface(command).status.code(), Some(2), "{command:?}");
+    }
+    assert_eq!(subsurface(&["no-such-command"]).status.code(), Some(2));
+}
+
+#[test]
+fn an_argument_out_of_range_is_a_usage_error_that_says_the_range() {
+    let cases: &[(&[&str], &str)] = &[
+        (&["render", "--out", "a.png", "--size", "0x0"], "at least 1x1"),
+        (&["render", "--out", "a.png", "--size", "100"], "WIDTHxHEIGHT"),
+        (&["render", "--out", "a.png", "--size", "100000x1"], "32768"),
+        (&["render", "--out", "a.jpg"], ".png or .exr"),
+        (&["render", "--out", "a.png", "--taps", "0"], "1..=1024"),
+        (&["render", "--out", "a.png", "--light", "0,0,0"], "direction is zero"),
+        (&["render", "--out", "a.png", "--camera", "1,2"], "three numbers"),
+        (&["render", "--out", "a.png", "--fov-y-degrees", "180"], "between 1 and 170"),
+        (&["contact-sheet", "--out", "a.exr"], ".png"),
+        (&["diffuse", "--material", "skin", "--input", "a.exr", "--out", "b.exr"], "--mm-per-pixel"),
+        (
+            &["diffuse", "--material", "skin", "--input", "a.exr", "--out", "b.exr", "--mm-per-pixel", "-1"],
+            "between 1e-9 and 1e9",
+        ),
+    ];
+    for (arguments, says) in cases {
+        let output = subsurface(arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        assert!(stderr(&output).contains(says), "{}", stderr(&output));
+    }
+}
+
+#[test]
+fn zero_by_zero_pixels_keeps_its_exact_message() {
+    let output = subsurface(&["render", "--out", "a.png", "--size", "0x0"]);
+    insta::assert_snapshot!(stderr(&output).trim_end(), @r"
+    error: invalid value '0x0' for '--size <WxH>': a picture needs at least 1x1 pixels, for example 1280x720
+
+    For more information, try '--help'.
+    ");
+}
+
+#[test]
+fn a_missing_folder_is_refused_before_any_work() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("no/such/folder/a.png");
+    let output = subsurface(&["render", "--out", out.to_str().unwrap()]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(
+        stderr(&output).contains("does not exist\n  = help: create it first: mkdir -p "),
+        "{}",
+        stderr(&output)
+    );
+}
+
+#[test]
+fn a_missing_materials_directory_says_how_to_name_one() {
+    let output = subsurface(&["build", "--materials", "no/such/folder", "--out", "unused"]);
+    assert_eq!(output.status.code(), Some(1));
+    assert_eq!(
+        stderr(&output).trim_end(),
+        "error: there is no materials directory no/such/folder\n  \
+         = help: name one with --materials DIR; it holds one .ron file per material"
+    );
+}

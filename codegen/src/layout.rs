@@ -1,0 +1,136 @@
+//! Memory layout of host-shareable structs as naga has it, and values laid out by it.
+
+use naga::{Handle, Module, ScalarKind, Type, TypeInner, VectorSize};
+
+use crate::value::Value;
+
+/// Shape of a field, as far as the generated Rust needs it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum FieldType {
+    F32,
+    I32,
+    U32,
+    /// Vector of 32-bit scalars.
+    Vector {
+        scalar: &'static str,
+        length: usize,
+    },
+    /// Matrix of f32 by columns; `rows_padded` floats lie between the starts of two columns.
+    Matrix {
+        columns: usize,
+        rows_padded: usize,
+    },
+    /// Fixed-size array.
+    Array {
+        element: Box<FieldType>,
+        length: u32,
+    },
+    /// Another struct.
+    Struct(Handle<Type>),
+}
+
+/// One field.
+#[derive(Clone, Debug)]
+pub(crate) struct Field {
+    pub(crate) name: String,
+    pub(crate) docs: Vec<String>,
+    pub(crate) offset: u32,
+    pub(crate) size: u32,
+    pub(crate) ty: FieldType,
+}
+
+/// A struct.
+#[derive(Clone, Debug)]
+pub(crate) struct Structure {
+    pub(crate) name: String,
+    pub(crate) docs: Vec<String>,
+    pub(crate) size: u32,
+    pub(crate) fields: Vec<Field>,
+}
+
+/// The layout of a struct; `None` for another type, or one that no Rust struct can mirror.
+pub(crate) fn structure(module: &Module, handle: Handle<Type>) -> Option<Structure> {
+    let ty = &module.types[handle];
+    let TypeInner::Struct { members, span } = &ty.inner else { return None };
+    let mut fields = Vec::with_capacity(members.len());
+    for (index, member) in members.iter().enumerate() {
+        let docs = module.doc_comments.as_ref().and_then(|docs| docs.struct_members.get(&(handle, index)));
+        fields.push(Field {
+            name: member.name.clone()?,
+            docs: docs.map(|lines| doc_lines(lines)).unwrap_or_default(),
+            offset: member.offset,
+            size: module.types[member.ty].inner.try_size(module.to_ctx())?,
+            ty: field_type(module, member.ty)?,
+        });
+    }
+    let docs = module.doc_comments.as_ref().and_then(|docs| docs.types.get(&handle));
+    Some(Structure {
+        name: ty.name.clone()?,
+        docs: docs.map(|lines| doc_lines(lines)).unwrap_or_default(),
+        size: *span,
+        fields,
+    })
+}
+
+/// naga hands doc comments out as written; without their slashes they are Markdown.
+pub(crate) fn doc_lines(lines: &[String]) -> Vec<String> {
+    let stripped = lines.iter().flat_map(|line| line.lines());
+    stripped
+        .map(|line| line.trim().trim_start_matches('/').trim_start_matches('!').trim().to_owned())
+        .collect()
+}
+
+fn field_type(module: &Module, handle: Handle<Type>) -> Option<FieldType> {
+    Some(match &module.types[handle].inner {
+        TypeInner::Scalar(scalar) => match (scalar.kind, scalar.width) {
+            (ScalarKind::Float, 4) => FieldType::F32,
+            (ScalarKind::Sint, 4) => FieldType::I32,
+            (ScalarKind::Uint, 4) => FieldType::U32,
+            _ => return None,
+        },
+        TypeInner::Vector { size, scalar } => {
+            let name = match (scalar.kind, scalar.width) {
+                (ScalarKind::Float, 4) => "f32",
+                (ScalarKind::Sint, 4) => "i32",
+                (ScalarKind::Uint, 4) => "u32",
+                _ => return None,
+            };
+            FieldType::Vector { scalar: name, length: *size as usize }
+        }
+        TypeInner::Matrix { columns, rows, scalar } if scalar.width == 4 => FieldType::Matrix {
+            columns: *columns as usize,
+            rows_padded: if *rows == VectorSize::Bi { 2 } else { 4 },
+        },
+        TypeInner::Array { base, size: naga::ArraySize::Constant(length), stride } => {
+            let element = field_type(module, *base)?;
+            // A Rust array has no gaps: refuse elements whose stride is larger than they are.
+            if module.types[*base].inner.try_size(module.to_ctx())? != *stride {
+                return None;
+            }
+            FieldType::Array { element: Box::new(element), length: length.get() }
+        }
+        TypeInner::Struct { .. } => FieldType::Struct(handle),
+        _ => return None,
+    })
+}
+
+/// The bytes of `value` in the layout of the struct `handle`; fields that the value does not name are zero.
+pub(crate) fn bytes(module: &Module, handle: Handle<Type>, value: &Value) -> Vec<u8> {
+    let Some(layout) = structure(module, handle) else { return Vec::new() };
+    let mut bytes = vec![0; layout.size as usize];
+    for field in &layout.fields {
+        let Some(value) = value.field(&field.name) else { continue };
+        let encoded = match (value, &field.ty) {
+            (Value::F32(value), FieldType::F32) => value.to_le_bytes().to_vec(),
+            (Value::U32(value), FieldType::U32) => value.to_le_bytes().to_vec(),
+            (Value::Vector(components), FieldType::Vector { .. }) => {
+                components.iter().flat_map(|component| component.to_le_bytes()).collect()
+            }
+            (Value::Struct(_), FieldType::Struct(inner)) => self::bytes(module, *inner, value),
+            _ => unreachable!("the emitter writes {} with the type it declares", field.name),
+        };
+        let start = field.offset as usize;
+        bytes[start..start + encoded.len()].copy_from_slice(&encoded);
+    }
+    bytes
+}

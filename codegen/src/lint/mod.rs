@@ -1,0 +1,21 @@
+//! Warnings: values that are legal but suspect. One file per family.
+
+mod gaussian_weights;
+mod length;
+mod specular;
+mod surface_albedo;
+mod transmission;
+
+use crate::diagnostics::Diagnostic;
+use crate::resolve::Draft;
+
+pub(crate) use length::diffuse_per_mean_free_path;
+
+/// Adds the warnings about one material.
+pub(crate) fn check(material: &Draft<'_>, diagnostics: &mut Vec<Diagnostic>) {
+    length::check(material, diagnostics);
+    surface_albedo::check(material, diagnostics);
+    gaussian_weights::check(material, diagnostics);
+    specular::check(material, diagnostics);
+    transmission::check(material, diagnostics);
+}

@@ -1,0 +1,49 @@
+//! Files that appear whole or not at all.
+
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+
+use crate::diagnostics::Report;
+
+/// Why a build produced nothing.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum BuildError {
+    /// The material files have errors.
+    #[error("{0}")]
+    Materials(Report),
+    /// A file could not be written.
+    #[error("error: cannot write {}: {source}\n  = help: check that the folder exists and may be written to", path.display())]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// Not called from a build script.
+    #[error(
+        "error: OUT_DIR is not set\n  = help: Compiler::build belongs in a build.rs; elsewhere use Compiler::compile"
+    )]
+    NoOutDir,
+}
+
+impl From<Report> for BuildError {
+    fn from(report: Report) -> Self {
+        Self::Materials(report)
+    }
+}
+
+/// Writes `text` to `path` through a temporary file beside it, unless the file holds that text already: a new
+/// modification time would make Cargo rebuild what depends on it.
+pub(crate) fn write_if_changed(path: &Path, text: &str) -> Result<(), BuildError> {
+    if std::fs::read(path).is_ok_and(|old| old == text.as_bytes()) {
+        return Ok(());
+    }
+    let failed = |source| BuildError::Write { path: path.to_owned(), source };
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    std::fs::create_dir_all(folder).map_err(failed)?;
+    let mut file = tempfile::NamedTempFile::new_in(folder).map_err(failed)?;
+    file.write_all(text.as_bytes()).map_err(failed)?;
+    file.persist(path).map_err(|error| failed(error.error))?;
+    Ok(())
+}

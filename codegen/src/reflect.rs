@@ -1,0 +1,265 @@
+//! What a validated module offers and asks for: entry points, bind groups, host-shareable structs, vertex inputs.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use naga::valid::{GlobalUse, ModuleInfo};
+use naga::{
+    AddressSpace, Binding, GlobalVariable, Handle, ImageClass, ImageDimension, Module, ScalarKind,
+    ShaderStage, Type, TypeInner,
+};
+
+use crate::layout::doc_lines;
+
+/// Everything that bindings and the manifest are written from.
+#[derive(Debug)]
+pub(crate) struct Reflection {
+    pub(crate) entry_points: Vec<EntryPoint>,
+    /// Bindings by group and number.
+    pub(crate) groups: BTreeMap<u32, BTreeMap<u32, Bound>>,
+    /// Structs that a buffer holds, inner ones before the ones that contain them.
+    pub(crate) structures: Vec<Handle<Type>>,
+    /// Structs that vertex shaders take as input.
+    pub(crate) vertex_inputs: Vec<VertexInput>,
+}
+
+#[derive(Debug)]
+pub(crate) struct EntryPoint {
+    pub(crate) name: String,
+    pub(crate) stage: ShaderStage,
+    pub(crate) docs: Vec<String>,
+}
+
+/// One resource.
+#[derive(Debug)]
+pub(crate) struct Bound {
+    pub(crate) name: String,
+    pub(crate) docs: Vec<String>,
+    pub(crate) stages: BTreeSet<Stage>,
+    pub(crate) resource: Resource,
+}
+
+/// Shader stage, ordered as wgpu writes its flags.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Stage {
+    Vertex,
+    Fragment,
+    Compute,
+}
+
+/// What is bound.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum Resource {
+    /// `size`: bytes that must be bound at least (one element, if the array's length is open).
+    Uniform {
+        size: u32,
+        structure: String,
+    },
+    Storage {
+        size: u32,
+        structure: String,
+        read_only: bool,
+    },
+    Texture {
+        sample: Sample,
+        dimension: &'static str,
+        multisampled: bool,
+    },
+    Sampler {
+        comparison: bool,
+    },
+}
+
+/// What a texture holds and how it is read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Sample {
+    /// `filterable` only if some sampler reads it: a texture that is only loaded from may be of any float format.
+    Float {
+        filterable: bool,
+    },
+    Sint,
+    Uint,
+    Depth,
+}
+
+/// The struct of a vertex shader's inputs.
+#[derive(Debug)]
+pub(crate) struct VertexInput {
+    pub(crate) name: String,
+    pub(crate) docs: Vec<String>,
+    /// Name, docs, location and number of f32 components.
+    pub(crate) attributes: Vec<(String, Vec<String>, u32, usize)>,
+}
+
+/// A resource for which no typed binding can be written.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("no typed binding can be written for {name}: {reason}")]
+pub struct UnsupportedBinding {
+    name: String,
+    reason: &'static str,
+}
+
+pub(crate) fn reflect(module: &Module, info: &ModuleInfo) -> Result<Reflection, UnsupportedBinding> {
+    let docs = module.doc_comments.as_deref();
+    let mut groups: BTreeMap<u32, BTreeMap<u32, Bound>> = BTreeMap::new();
+    let mut structures = Vec::new();
+    for (handle, global) in module.global_variables.iter() {
+        let Some(place) = &global.binding else { continue };
+        let stages = stages(module, info, handle);
+        let bound = Bound {
+            name: global.name.clone().unwrap_or_default(),
+            docs: docs
+                .and_then(|docs| docs.global_variables.get(&handle))
+                .map(|d| doc_lines(d))
+                .unwrap_or_default(),
+            stages,
+            resource: resource(module, info, handle, global)?,
+        };
+        if matches!(bound.resource, Resource::Uniform { .. } | Resource::Storage { .. }) {
+            collect_structures(module, global.ty, &mut structures);
+        }
+        groups.entry(place.group).or_default().insert(place.binding, bound);
+    }
+    let entry_points = module.entry_points.iter().enumerate().map(|(index, entry)| EntryPoint {
+        name: entry.name.clone(),
+        stage: entry.stage,
+        docs: docs.and_then(|docs| docs.entry_points.get(&index)).map(|d| doc_lines(d)).unwrap_or_default(),
+    });
+    let entry_points = entry_points.collect();
+    Ok(Reflection { entry_points, groups, structures, vertex_inputs: vertex_inputs(module) })
+}
+
+fn stages(module: &Module, info: &ModuleInfo, global: Handle<GlobalVariable>) -> BTreeSet<Stage> {
+    let mut stages = BTreeSet::new();
+    for (index, entry) in module.entry_points.iter().enumerate() {
+        if info.get_entry_point(index)[global] != GlobalUse::empty() {
+            stages.extend(match entry.stage {
+                ShaderStage::Vertex => Some(Stage::Vertex),
+                ShaderStage::Fragment => Some(Stage::Fragment),
+                ShaderStage::Compute => Some(Stage::Compute),
+                _ => None,
+            });
+        }
+    }
+    stages
+}
+
+/// True if any entry point reads `image` through a sampler that filters.
+fn is_filtered(module: &Module, info: &ModuleInfo, image: Handle<GlobalVariable>) -> bool {
+    let is_filtering = |sampler: Handle<GlobalVariable>| {
+        let ty = module.global_variables[sampler].ty;
+        matches!(module.types[ty].inner, TypeInner::Sampler { comparison: false })
+    };
+    (0..module.entry_points.len()).any(|index| {
+        let sampled = &info.get_entry_point(index).sampling_set;
+        sampled.iter().any(|key| key.image == image && is_filtering(key.sampler))
+    })
+}
+
+fn resource(
+    module: &Module,
+    info: &ModuleInfo,
+    handle: Handle<GlobalVariable>,
+    global: &GlobalVariable,
+) -> Result<Resource, UnsupportedBinding> {
+    let unsupported = |reason| UnsupportedBinding { name: global.name.clone().unwrap_or_default(), reason };
+    match global.space {
+        AddressSpace::Uniform | AddressSpace::Storage { .. } => {
+            let (structure, size) = element(module, global.ty)
+                .ok_or_else(|| unsupported("a buffer must hold a struct, or an array of one"))?;
+            Ok(match global.space {
+                AddressSpace::Storage { access } => {
+                    let read_only = !access.contains(naga::StorageAccess::STORE);
+                    Resource::Storage { size, structure, read_only }
+                }
+                _ => Resource::Uniform { size, structure },
+            })
+        }
+        _ => match module.types[global.ty].inner {
+            TypeInner::Sampler { comparison } => Ok(Resource::Sampler { comparison }),
+            TypeInner::Image { dim, arrayed, class } => {
+                let (sample, multisampled) = match class {
+                    ImageClass::Depth { multi } => (Sample::Depth, multi),
+                    ImageClass::Sampled { kind: ScalarKind::Float, multi } => {
+                        (Sample::Float { filterable: is_filtered(module, info, handle) }, multi)
+                    }
+                    ImageClass::Sampled { kind: ScalarKind::Sint, multi } => (Sample::Sint, multi),
+                    ImageClass::Sampled { kind: ScalarKind::Uint, multi } => (Sample::Uint, multi),
+                    _ => return Err(unsupported("storage and external textures have no typed binding yet")),
+                };
+                let dimension = match (dim, arrayed) {
+                    (ImageDimension::D1, _) => "D1",
+                    (ImageDimension::D2, false) => "D2",
+                    (ImageDimension::D2, true) => "D2Array",
+                    (ImageDimension::D3, _) => "D3",
+                    (ImageDimension::Cube, false) => "Cube",
+                    (ImageDimension::Cube, true) => "CubeArray",
+                };
+                Ok(Resource::Texture { sample, dimension, multisampled })
+            }
+            _ => Err(unsupported("it is neither a buffer, a texture nor a sampler")),
+        },
+    }
+}
+
+/// Name of the struct that a buffer of type `ty` holds, and the bytes of one of them.
+fn element(module: &Module, ty: Handle<Type>) -> Option<(String, u32)> {
+    match &module.types[ty].inner {
+        TypeInner::Struct { span, .. } => Some((module.types[ty].name.clone()?, *span)),
+        TypeInner::Array { base, size, stride } => {
+            let (name, _) = element(module, *base)?;
+            let length = match size {
+                naga::ArraySize::Constant(length) => length.get(),
+                _ => 1,
+            };
+            Some((name, stride * length))
+        }
+        _ => None,
+    }
+}
+
+fn collect_structures(module: &Module, ty: Handle<Type>, found: &mut Vec<Handle<Type>>) {
+    match &module.types[ty].inner {
+        TypeInner::Struct { members, .. } => {
+            for member in members {
+                collect_structures(module, member.ty, found);
+            }
+            if !found.contains(&ty) {
+                found.push(ty);
+            }
+        }
+        TypeInner::Array { base, .. } => collect_structures(module, *base, found),
+        _ => {}
+    }
+}
+
+fn vertex_inputs(module: &Module) -> Vec<VertexInput> {
+    let mut inputs: Vec<VertexInput> = Vec::new();
+    let vertex = module.entry_points.iter().filter(|entry| entry.stage == ShaderStage::Vertex);
+    for argument in vertex.flat_map(|entry| &entry.function.arguments) {
+        let ty = &module.types[argument.ty];
+        let (TypeInner::Struct { members, .. }, Some(name)) = (&ty.inner, &ty.name) else { continue };
+        let docs = module.doc_comments.as_deref();
+        let attributes = members.iter().enumerate().filter_map(|(index, member)| {
+            let Some(Binding::Location { location, .. }) = member.binding else { return None };
+            let components = match module.types[member.ty].inner {
+                TypeInner::Scalar(naga::Scalar::F32) => 1,
+                TypeInner::Vector { size, scalar: naga::Scalar::F32 } => size as usize,
+                _ => return None,
+            };
+            let lines = docs.and_then(|docs| docs.struct_members.get(&(argument.ty, index)));
+            Some((
+                member.name.clone()?,
+                lines.map(|l| doc_lines(l)).unwrap_or_default(),
+                location,
+                components,
+            ))
+        });
+        let attributes = attributes.collect();
+        let docs =
+            docs.and_then(|docs| docs.types.get(&argument.ty)).map(|d| doc_lines(d)).unwrap_or_default();
+        if inputs.iter().all(|input| input.name != *name) {
+            inputs.push(VertexInput { name: name.clone(), docs, attributes });
+        }
+    }
+    inputs
+}

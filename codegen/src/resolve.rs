@@ -1,0 +1,616 @@
+//! Puts the files of a set together: bases, profiles by name, and what only several files together can get wrong.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use subsurface_profile::{Channel, Length, Medium, Model};
+
+use crate::diagnostics::Diagnostic;
+use crate::identifier::{self, camel_case, screaming_case};
+use crate::lint;
+use crate::material::{Material, ResolvedProfile};
+use crate::schema::{Given, LengthGiven, MaterialFile, ProfileExpression, ProfileFile, Triple, rounded};
+use crate::source::{FileId, Span, Spanned};
+use crate::suggestion::{closest, list, shortened};
+
+/// Specular reflectance at normal incidence when a material gives none: skin, n = 1.4 (L23 §5).
+const DEFAULT_REFLECTANCE_AT_NORMAL: f64 = 0.028;
+/// Perceptual roughness when a material gives none.
+const DEFAULT_ROUGHNESS: f64 = 0.40;
+/// Transmission strength when a material gives none: the profile's own transmittance.
+const DEFAULT_TRANSMISSION_STRENGTH: f64 = 1.0;
+/// Materials named in the labels of an error in a profile that they use.
+const MOST_USERS: usize = 3;
+/// Members of a cycle that a message names.
+const MOST_LINKS: usize = 8;
+/// Names that a help text lists.
+const MOST_NAMES: usize = 16;
+
+/// The decoded files of one set.
+#[derive(Debug, Default)]
+pub(crate) struct Files {
+    /// Sorted by path.
+    pub(crate) materials: Vec<MaterialFile>,
+    /// Stems of material files with an error that hides all their fields.
+    pub(crate) broken_materials: BTreeSet<String>,
+    /// By stem.
+    pub(crate) profiles: BTreeMap<String, ProfileFile>,
+    /// The folder of the profiles, as displayed.
+    pub(crate) profiles_folder: String,
+}
+
+/// What the files of a set amount to.
+#[derive(Debug, Default)]
+pub(crate) struct Resolution {
+    /// The materials without errors, sorted by name.
+    pub(crate) materials: Vec<Material>,
+    pub(crate) diagnostics: Vec<Diagnostic>,
+    /// The files that each file of a material leans on: bases and profiles.
+    pub(crate) dependencies: BTreeMap<FileId, BTreeSet<FileId>>,
+    users: BTreeMap<FileId, Vec<(String, Span)>>,
+}
+
+/// A material with the values of its bases filled in.
+#[derive(Debug)]
+pub(crate) struct Draft<'a> {
+    pub(crate) name: &'a str,
+    pub(crate) profile: ResolvedProfile,
+    /// Where the material names its profile, when the model is written in another file.
+    pub(crate) profile_name: Option<&'a Span>,
+    pub(crate) length: &'a LengthGiven,
+    pub(crate) surface_albedo: &'a Triple,
+    pub(crate) reflectance_at_normal: Option<&'a Spanned<f64>>,
+    pub(crate) roughness: Option<&'a Spanned<f64>>,
+    pub(crate) transmission_strength: Option<&'a Spanned<f64>>,
+}
+
+/// The fields of a material, its own or those of its nearest base that gives them.
+#[derive(Clone, Copy)]
+struct Inherited<'a> {
+    profile: &'a Given<(ProfileExpression, Span)>,
+    length: &'a Given<LengthGiven>,
+    surface_albedo: &'a Given<Triple>,
+    reflectance_at_normal: &'a Given<Spanned<f64>>,
+    roughness: &'a Given<Spanned<f64>>,
+    transmission_strength: &'a Given<Spanned<f64>>,
+    /// Whether every base exists.
+    complete: bool,
+}
+
+impl Resolution {
+    /// Resolves all names among `files`.
+    pub(crate) fn of(files: &Files) -> Self {
+        let mut resolution = Self::default();
+        let by_name = resolution.name_materials(files);
+        let alias_errors = check_aliases(files);
+        resolution.check_bases(files, &by_name);
+        for material in &files.materials {
+            let inherited = resolution.inherit(&by_name, material);
+            if let Some(draft) = resolution.draft(files, material, inherited)
+                && by_name
+                    .get(material.name.value.as_str())
+                    .is_some_and(|first| std::ptr::eq(*first, material))
+            {
+                lint::check(&draft, &mut resolution.diagnostics);
+                resolution.materials.push(finish(material, draft));
+            }
+        }
+        resolution.materials.sort_by(|a, b| a.name.cmp(&b.name));
+        let alias_errors: Vec<_> =
+            alias_errors.into_iter().map(|error| resolution.name_users(error)).collect();
+        resolution.diagnostics.extend(alias_errors);
+        resolution
+    }
+
+    /// Adds to each error within a profile file the materials that use it.
+    pub(crate) fn name_users(&self, mut diagnostic: Diagnostic) -> Diagnostic {
+        let users = diagnostic.primary.as_ref().and_then(|(span, _)| self.users.get(&span.file));
+        if let Some(users) = users {
+            let shown = users.len().min(MOST_USERS);
+            for (index, (name, span)) in users.iter().take(shown).enumerate() {
+                let more = users.len() - shown;
+                let and_more =
+                    if more > 0 && index + 1 == shown { format!(" and {more} more") } else { String::new() };
+                diagnostic =
+                    diagnostic.secondary(span.clone(), format!("used by material `{name}`{and_more}"));
+            }
+        }
+        diagnostic
+    }
+
+    /// A material's file and all files it leans on.
+    pub(crate) fn files_behind(&self, file: FileId) -> BTreeSet<FileId> {
+        let mut files = self.dependencies.get(&file).cloned().unwrap_or_default();
+        files.insert(file);
+        files
+    }
+
+    /// Materials by name; reports names that are taken.
+    fn name_materials<'a>(&mut self, files: &'a Files) -> BTreeMap<&'a str, &'a MaterialFile> {
+        let mut by_name: BTreeMap<&str, &MaterialFile> = BTreeMap::new();
+        let mut by_identifier: BTreeMap<(bool, String), &MaterialFile> = BTreeMap::new();
+        for material in &files.materials {
+            let name = material.name.value.as_str();
+            if let Some(first) = by_name.get(name) {
+                let diagnostic =
+                    Diagnostic::error(format!("two materials have the name `{}`", shortened(name)))
+                        .label(material.name.span.clone(), "this name is taken")
+                        .secondary(first.name.span.clone(), "first used here")
+                        .help("rename one of the files, or give one a `name: \"…\"` of its own");
+                self.diagnostics.push(diagnostic);
+                continue;
+            }
+            by_name.insert(name, material);
+            if identifier::check(name).is_err() {
+                continue; // reported, and no identifier comes of it
+            }
+            let identifiers = [(true, camel_case(name)), (false, screaming_case(name))];
+            let taken = identifiers.iter().find_map(|key| Some((key, *by_identifier.get(key)?)));
+            if let Some(((_, identifier), first)) = taken {
+                let other = &first.name.value;
+                let diagnostic = Diagnostic::error(format!("the names `{other}` and `{name}` are too alike"))
+                    .label(
+                        material.name.span.clone(),
+                        format!("becomes `{identifier}` in the generated code"),
+                    )
+                    .secondary(first.name.span.clone(), format!("becomes `{identifier}` as well"))
+                    .help("choose names that differ in more than capitals and underscores");
+                self.diagnostics.push(diagnostic);
+            }
+            for key in identifiers {
+                by_identifier.entry(key).or_insert(material);
+            }
+        }
+        by_name
+    }
+
+    /// Reports materials that inherit from each other in a circle, or from nothing.
+    fn check_bases(&mut self, files: &Files, by_name: &BTreeMap<&str, &MaterialFile>) {
+        let mut edges = BTreeMap::new();
+        for (name, material) in by_name {
+            let Some(base) = material.base.value() else { continue };
+            if by_name.contains_key(base.value.as_str()) {
+                edges.insert(*name, (base.value.as_str(), &base.span));
+            } else if !files.broken_materials.contains(&base.value) {
+                let names = || by_name.keys().copied().filter(|other| other != name);
+                let mut diagnostic =
+                    Diagnostic::error(format!("unknown base material `{}`", shortened(&base.value)))
+                        .label(base.span.clone(), "no material of this set has this name");
+                if let Some(meant) = closest(&base.value, names()) {
+                    diagnostic = diagnostic.help(format!("did you mean `{meant}`?"));
+                }
+                self.diagnostics
+                    .push(diagnostic.help(format!("the other materials are {}", some_of(names()))));
+            }
+        }
+        for cycle in cycles(&edges) {
+            let diagnostic = describe_cycle(&cycle, &edges, "material", "is its own base", "is based on");
+            self.diagnostics
+                .push(diagnostic.help("remove `base` from one of these materials and give it all fields"));
+        }
+    }
+
+    fn inherit<'a>(
+        &mut self,
+        by_name: &BTreeMap<&str, &'a MaterialFile>,
+        material: &'a MaterialFile,
+    ) -> Inherited<'a> {
+        fn first<'a, T>(own: &'a Given<T>, base: &'a Given<T>) -> &'a Given<T> {
+            if own.is_absent() { base } else { own }
+        }
+        let mut inherited = Inherited {
+            profile: &material.profile,
+            length: &material.length,
+            surface_albedo: &material.surface_albedo,
+            reflectance_at_normal: &material.reflectance_at_normal,
+            roughness: &material.roughness,
+            transmission_strength: &material.transmission_strength,
+            complete: true,
+        };
+        let mut seen = BTreeSet::from([material.file]);
+        let mut current = material;
+        loop {
+            let base = match &current.base {
+                Given::Absent => return inherited,
+                Given::Bad => break,
+                Given::Value(base) => base,
+            };
+            let Some(next) = by_name.get(base.value.as_str()) else { break };
+            if !seen.insert(next.file) {
+                break;
+            }
+            self.depends(material.file, next.file);
+            inherited = Inherited {
+                profile: first(inherited.profile, &next.profile),
+                length: first(inherited.length, &next.length),
+                surface_albedo: first(inherited.surface_albedo, &next.surface_albedo),
+                reflectance_at_normal: first(inherited.reflectance_at_normal, &next.reflectance_at_normal),
+                roughness: first(inherited.roughness, &next.roughness),
+                transmission_strength: first(inherited.transmission_strength, &next.transmission_strength),
+                complete: true,
+            };
+            current = next;
+        }
+        inherited.complete = false;
+        inherited
+    }
+
+    /// The material with everything looked up; `None` when something was wrong, which has been reported then.
+    fn draft<'a>(
+        &mut self,
+        files: &Files,
+        material: &'a MaterialFile,
+        inherited: Inherited<'a>,
+    ) -> Option<Draft<'a>> {
+        if inherited.complete {
+            self.report_missing(files, material, &inherited);
+        }
+        // Looked up even when another field is bad, so that an unknown name is reported in the same run.
+        let profile = match inherited.profile {
+            Given::Value((expression, span)) => self.profile(files, material, expression, span),
+            Given::Absent | Given::Bad => None,
+        };
+        let (profile, profile_name) = profile?;
+        let length = inherited.length.value()?;
+        let surface_albedo = inherited.surface_albedo.value()?;
+        let optional_is_bad =
+            [inherited.reflectance_at_normal, inherited.roughness, inherited.transmission_strength]
+                .iter()
+                .any(|field| field.is_bad());
+        let usable = self.check_length(&profile, length, surface_albedo, profile_name)
+            && self.check_profile(&profile, length, surface_albedo, profile_name);
+        (usable && inherited.complete && !optional_is_bad).then_some(Draft {
+            name: &material.name.value,
+            profile,
+            profile_name,
+            length,
+            surface_albedo,
+            reflectance_at_normal: inherited.reflectance_at_normal.value(),
+            roughness: inherited.roughness.value(),
+            transmission_strength: inherited.transmission_strength.value(),
+        })
+    }
+
+    fn report_missing(&mut self, files: &Files, material: &MaterialFile, inherited: &Inherited<'_>) {
+        let profiles = || some_of(profile_names(files));
+        let missing = [
+            (
+                inherited.profile.is_absent(),
+                "profile",
+                format!(
+                    "add `profile: \"exponential_dipole_searchlight\"`, or another: the profiles are {}",
+                    profiles()
+                ),
+            ),
+            (
+                inherited.length.is_absent(),
+                "mean_free_path_mm",
+                "add `mean_free_path_mm: (red, green, blue)`, the mean free path 1/(σs′ + σa) in mm"
+                    .to_owned(),
+            ),
+            (
+                inherited.surface_albedo.is_absent(),
+                "surface_albedo",
+                "add `surface_albedo: (red, green, blue)`, the share of light reflected, from 0 to 1"
+                    .to_owned(),
+            ),
+        ];
+        for (is_missing, field, help) in missing {
+            if is_missing {
+                let mut diagnostic = Diagnostic::error(format!("missing field `{field}`"))
+                    .label(material.head.clone(), format!("`Material` needs `{field}`"))
+                    .help(help);
+                if let Some(base) = material.base.value() {
+                    diagnostic = diagnostic.secondary(base.span.clone(), "this base does not give it either");
+                }
+                self.diagnostics.push(diagnostic);
+            }
+        }
+    }
+
+    /// Follows names to a model.
+    fn profile<'a>(
+        &mut self,
+        files: &Files,
+        material: &MaterialFile,
+        expression: &'a ProfileExpression,
+        span: &'a Span,
+    ) -> Option<(ResolvedProfile, Option<&'a Span>)> {
+        let target = match expression {
+            ProfileExpression::Inline(inline) => {
+                let profile = ResolvedProfile {
+                    stem: None,
+                    model: inline.model.clone(),
+                    docs: Vec::new(),
+                    span: inline.head.clone(),
+                };
+                return Some((profile, None));
+            }
+            ProfileExpression::Named(target) => target,
+        };
+        let chain = chain(files, &target.value);
+        for file in &chain.files {
+            self.depends(material.file, *file);
+            self.users.entry(*file).or_default().push((material.name.value.clone(), span.clone()));
+        }
+        match chain.end {
+            ChainEnd::Model(profile) => Some((*profile, Some(span))),
+            ChainEnd::Published(stem, model) => {
+                let profile =
+                    ResolvedProfile { stem: Some(stem), model, docs: Vec::new(), span: span.clone() };
+                Some((profile, None))
+            }
+            ChainEnd::Unknown if chain.files.is_empty() => {
+                self.diagnostics.push(unknown_profile(files, target));
+                None
+            }
+            // Reported where the last file of the chain is checked.
+            ChainEnd::Unknown | ChainEnd::Broken => None,
+        }
+    }
+
+    /// Whether the given length is one that the profile can use.
+    fn check_length(
+        &mut self,
+        profile: &ResolvedProfile,
+        length: &LengthGiven,
+        surface_albedo: &Triple,
+        profile_name: Option<&Span>,
+    ) -> bool {
+        let scales = !matches!(profile.model, Model::GaussianSum(_));
+        if !scales || length.kind == profile.model.length() || length.kind == Length::MeanFreePath {
+            return true; // a mean free path given as the diffuse one is a lint: the field's name is the usual one
+        }
+        let converted = [0, 1, 2].map(|index| {
+            let factor = lint::diffuse_per_mean_free_path(surface_albedo.values[index]);
+            rounded(length.value.values[index] / factor)
+        });
+        let mut diagnostic = Diagnostic::error("this profile takes the mean free path, not the diffuse one")
+            .label(length.key.clone(), "the profile is not parametrized by this length")
+            .help(format!(
+                "with ℓ = ℓ_d √(3 (1 - α)) and this surface albedo, write `mean_free_path_mm: ({})`",
+                converted.join(", ")
+            ))
+            .help("or use a profile that takes it: `\"burley_dmfp\"`");
+        if let Some(span) = profile_name {
+            diagnostic = diagnostic.secondary(span.clone(), "the profile is named here");
+        }
+        self.diagnostics.push(diagnostic);
+        false
+    }
+
+    /// Whether the model has a profile for this very medium.
+    fn check_profile(
+        &mut self,
+        profile: &ResolvedProfile,
+        length: &LengthGiven,
+        surface_albedo: &Triple,
+        profile_name: Option<&Span>,
+    ) -> bool {
+        let error = Channel::ALL.into_iter().find_map(|channel| {
+            let index = channel.index();
+            match Medium::new(surface_albedo.values[index], length.value.values[index]) {
+                Ok(medium) => {
+                    profile.model.profile(medium, channel).err().map(|error| (index, error.to_string()))
+                }
+                Err(error) => Some((index, error.to_string())),
+            }
+        });
+        let Some((index, error)) = error else { return true };
+        let mut diagnostic = Diagnostic::error(format!("this material has no profile: {error}"))
+            .label(profile.span.clone(), "the model fails for this medium")
+            .secondary(surface_albedo.spans[index].clone(), "at this surface albedo")
+            .secondary(length.value.spans[index].clone(), "and this length")
+            .help("change the coefficients of the model, or use a published profile");
+        if let Some(span) = profile_name {
+            diagnostic = diagnostic.secondary(span.clone(), "used here");
+        }
+        self.diagnostics.push(diagnostic);
+        false
+    }
+
+    fn depends(&mut self, file: FileId, on: FileId) {
+        self.dependencies.entry(file).or_default().insert(on);
+    }
+}
+
+/// Reports profile files that name each other in a circle, or name nothing.
+fn check_aliases(files: &Files) -> Vec<Diagnostic> {
+    let mut diagnostics = Vec::new();
+    let mut edges = BTreeMap::new();
+    for (stem, file) in &files.profiles {
+        let Some(ProfileExpression::Named(target)) = &file.expression else { continue };
+        if files.profiles.contains_key(&target.value) {
+            edges.insert(stem.as_str(), (target.value.as_str(), &target.span));
+        } else if Model::published(&target.value).is_none() {
+            diagnostics.push(unknown_profile(files, target));
+        }
+    }
+    for cycle in cycles(&edges) {
+        let diagnostic = describe_cycle(&cycle, &edges, "profile", "imports itself", "is");
+        diagnostics.push(
+            diagnostic
+                .help("write a model in one of these files, such as `Burley(parametrization: Searchlight)`"),
+        );
+    }
+    diagnostics
+}
+
+fn finish(file: &MaterialFile, draft: Draft<'_>) -> Material {
+    let number = |field: Option<&Spanned<f64>>, default| field.map_or(default, |field| field.value);
+    Material {
+        name: draft.name.to_owned(),
+        docs: file.docs.clone(),
+        length_mm: draft.length.value.values,
+        surface_albedo: draft.surface_albedo.values,
+        reflectance_at_normal: number(draft.reflectance_at_normal, DEFAULT_REFLECTANCE_AT_NORMAL),
+        roughness: number(draft.roughness, DEFAULT_ROUGHNESS),
+        transmission_strength: number(draft.transmission_strength, DEFAULT_TRANSMISSION_STRENGTH),
+        span: file.head.clone(),
+        profile: draft.profile,
+    }
+}
+
+/// The files passed on the way from a name to a model, and what was found.
+pub(crate) struct Chain {
+    pub(crate) files: Vec<FileId>,
+    pub(crate) end: ChainEnd,
+}
+
+pub(crate) enum ChainEnd {
+    /// A model written in a file.
+    Model(Box<ResolvedProfile>),
+    /// A published model and its stem.
+    Published(String, Model),
+    /// Neither a file nor a published profile has the last name.
+    Unknown,
+    /// A file with errors, or a cycle.
+    Broken,
+}
+
+/// Follows a name through alias files.
+pub(crate) fn chain(files: &Files, name: &str) -> Chain {
+    let mut passed = Vec::new();
+    let mut name = name;
+    let mut seen = BTreeSet::new();
+    let end = loop {
+        let Some(file) = files.profiles.get(name) else {
+            break Model::published(name)
+                .map_or(ChainEnd::Unknown, |model| ChainEnd::Published(name.to_owned(), model));
+        };
+        if !seen.insert(name) {
+            break ChainEnd::Broken;
+        }
+        passed.push(file.file);
+        match &file.expression {
+            None => break ChainEnd::Broken,
+            Some(ProfileExpression::Named(next)) => name = &next.value,
+            Some(ProfileExpression::Inline(inline)) => {
+                break ChainEnd::Model(Box::new(ResolvedProfile {
+                    stem: Some(file.stem.clone()),
+                    model: inline.model.clone(),
+                    docs: file.docs.clone(),
+                    span: inline.head.clone(),
+                }));
+            }
+        }
+    };
+    Chain { files: passed, end }
+}
+
+/// All names a profile may be called by, sorted.
+fn profile_names(files: &Files) -> impl Iterator<Item = &str> {
+    let names: BTreeSet<&str> = files.profiles.keys().map(String::as_str).chain(Model::PUBLISHED).collect();
+    names.into_iter()
+}
+
+/// The error for a name that is neither a file's nor a published profile's.
+pub(crate) fn unknown_profile(files: &Files, name: &Spanned<String>) -> Diagnostic {
+    let folder = &files.profiles_folder;
+    let text = &name.value;
+    let shown = shortened(text);
+    let mut diagnostic = Diagnostic::error(format!("unknown profile `{shown}`"))
+        .label(name.span.clone(), "neither a profile file nor a built-in profile");
+    let stem = text.rsplit(['/', '\\']).next().unwrap_or(text);
+    let stem = stem.strip_suffix(".ron").unwrap_or(stem);
+    if stem != text && profile_names(files).any(|other| other == stem) {
+        diagnostic = diagnostic.help(format!("write the stem of the file alone: `\"{stem}\"`"));
+    } else if let Some(meant) = closest(stem, profile_names(files)) {
+        diagnostic = diagnostic.help(format!("did you mean `{meant}`?"));
+    } else {
+        diagnostic = diagnostic
+            .help(format!("there is no file `{folder}/{shown}.ron`: write it, or use another profile"));
+    }
+    diagnostic.help(format!("the profiles are {}", some_of(profile_names(files))))
+}
+
+/// A list of names that does not grow without limit.
+fn some_of<'a>(names: impl Iterator<Item = &'a str>) -> String {
+    let names: Vec<&str> = names.collect();
+    match names.get(MOST_NAMES..) {
+        Some(rest) if !rest.is_empty() => {
+            let first: Vec<String> = names[..MOST_NAMES].iter().map(|name| format!("`{name}`")).collect();
+            format!("{} and {} more", first.join(", "), rest.len())
+        }
+        _ => list(names),
+    }
+}
+
+/// The cycles of a graph in which every node has at most one successor; each begins at its smallest name.
+fn cycles<'a>(edges: &BTreeMap<&'a str, (&'a str, &Span)>) -> Vec<Vec<&'a str>> {
+    let mut done: BTreeSet<&str> = BTreeSet::new();
+    let mut cycles = Vec::new();
+    for start in edges.keys() {
+        let mut path: Vec<&str> = Vec::new();
+        let mut on_path: BTreeMap<&str, usize> = BTreeMap::new();
+        let mut name: &'a str = start;
+        while !done.contains(name) {
+            if let Some(&first) = on_path.get(name) {
+                let mut cycle = path[first..].to_vec();
+                let smallest = (0..cycle.len()).min_by_key(|&index| cycle[index]).unwrap_or(0);
+                cycle.rotate_left(smallest);
+                cycles.push(cycle);
+                break;
+            }
+            on_path.insert(name, path.len());
+            path.push(name);
+            let Some((next, _)) = edges.get(name) else { break };
+            name = next;
+        }
+        done.extend(path);
+    }
+    cycles
+}
+
+fn describe_cycle(
+    cycle: &[&str],
+    edges: &BTreeMap<&str, (&str, &Span)>,
+    noun: &str,
+    what: &str,
+    link: &str,
+) -> Diagnostic {
+    let mut shown: Vec<String> = cycle.iter().take(MOST_LINKS).map(|name| format!("`{name}`")).collect();
+    if cycle.len() > MOST_LINKS {
+        shown.push(format!("{} more", cycle.len() - MOST_LINKS));
+    }
+    let first = cycle.first().copied().unwrap_or_default();
+    shown.push(format!("`{first}`"));
+    let mut diagnostic = Diagnostic::error(format!("{noun} `{first}` {what}: {}", shown.join(" -> ")));
+    for (index, name) in cycle.iter().take(MOST_LINKS).enumerate() {
+        if let Some((target, span)) = edges.get(name) {
+            let label = format!("`{name}` {link} `{target}`");
+            diagnostic = if index == 0 {
+                diagnostic.label((*span).clone(), label)
+            } else {
+                diagnostic.secondary((*span).clone(), label)
+            };
+        }
+    }
+    diagnostic
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::source::SourceMap;
+
+    #[test]
+    fn each_cycle_is_found_once_and_begins_at_its_smallest_name() {
+        let span = Span::new(SourceMap::new().add("x", ""), 0..0);
+        let edge = |from, to| (from, (to, &span));
+        let edges = BTreeMap::from([
+            edge("a", "d"), // a tail into the cycle d -> b -> c -> d
+            edge("b", "c"),
+            edge("c", "d"),
+            edge("d", "b"),
+            edge("e", "e"),
+            edge("f", "g"),
+        ]);
+        assert_eq!(cycles(&edges), [vec!["b", "c", "d"], vec!["e"]]);
+    }
+
+    #[test]
+    fn long_lists_of_names_end() {
+        let names: Vec<String> = (0..100).map(|index| format!("n{index}")).collect();
+        assert!(some_of(names.iter().map(String::as_str)).ends_with("and 84 more"));
+    }
+}

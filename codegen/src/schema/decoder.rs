@@ -1,0 +1,322 @@
+//! What all decoders share: the file's diagnostics, and the fields of a struct by name.
+
+use crate::diagnostics::Diagnostic;
+use crate::schema::quantity::Quantity;
+use crate::source::{Span, Spanned};
+use crate::suggestion::{closest, list, shortened};
+use crate::syntax::{Entry, Name, Node, Shape, count};
+
+/// Errors listed for one file. A generated list of 100 000 wrong numbers is one mistake, not 100 000.
+const MOST_ERRORS: usize = 100;
+
+/// A field of a file.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) enum Given<T> {
+    /// Not written.
+    #[default]
+    Absent,
+    /// Written, wrong, and reported.
+    Bad,
+    /// Written and checked.
+    Value(T),
+}
+
+impl<T> Given<T> {
+    /// The value, if there is a good one.
+    pub(crate) fn value(&self) -> Option<&T> {
+        match self {
+            Given::Value(value) => Some(value),
+            Given::Absent | Given::Bad => None,
+        }
+    }
+
+    pub(crate) fn is_absent(&self) -> bool {
+        matches!(self, Given::Absent)
+    }
+
+    pub(crate) fn is_bad(&self) -> bool {
+        matches!(self, Given::Bad)
+    }
+
+    fn of(value: Option<T>) -> Self {
+        value.map_or(Given::Bad, Given::Value)
+    }
+}
+
+/// Three numbers, one per channel or per coefficient, each with its place.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Triple {
+    pub(crate) values: [f64; 3],
+    pub(crate) spans: [Span; 3],
+    pub(crate) span: Span,
+}
+
+/// Collects the diagnostics of one file while it is decoded.
+#[derive(Debug, Default)]
+pub(crate) struct Decoder {
+    diagnostics: Vec<Diagnostic>,
+    left_out: usize,
+}
+
+impl Decoder {
+    /// Adds an error or a warning.
+    pub(crate) fn report(&mut self, diagnostic: Diagnostic) {
+        if self.diagnostics.len() < MOST_ERRORS {
+            self.diagnostics.push(diagnostic);
+        } else {
+            self.left_out += 1;
+        }
+    }
+
+    /// All diagnostics of the file.
+    pub(crate) fn finish(mut self, whole: &Span) -> Vec<Diagnostic> {
+        if self.left_out > 0 {
+            let message = format!("{} of this file are not listed", count(self.left_out, "further error"));
+            let end = whole.range.end;
+            let diagnostic = Diagnostic::error(message)
+                .label(Span::new(whole.file, end..end), "the file ends here")
+                .help(format!("fix the first {MOST_ERRORS}: the others are probably alike"));
+            self.diagnostics.push(diagnostic);
+        }
+        self.diagnostics
+    }
+
+    /// Reports that `node` is not what is expected.
+    pub(crate) fn wrong_type(
+        &mut self,
+        node: &Node<'_>,
+        field: &str,
+        expected: &str,
+        help: impl Into<String>,
+    ) {
+        self.report(
+            Diagnostic::error(format!("`{field}` has the wrong type"))
+                .label(node.span(), format!("expected {expected}, found {}", node.kind()))
+                .help(help),
+        );
+    }
+
+    /// A number within the bounds of its quantity.
+    pub(crate) fn number(&mut self, node: &Node<'_>, field: &str, quantity: &Quantity) -> Option<f64> {
+        let Shape::Number(value) = node.shape() else {
+            self.wrong_type(node, field, "a number", quantity.meaning);
+            return None;
+        };
+        self.checked(node, value, quantity)
+    }
+
+    fn checked(&mut self, node: &Node<'_>, value: f64, quantity: &Quantity) -> Option<f64> {
+        match quantity.check(value, node.text()) {
+            // The sum turns -0.0 into 0.0: both are written zeros, and one text must give one kernel.
+            Ok(()) => Some(value + 0.0),
+            Err(refusal) => {
+                self.report(
+                    Diagnostic::error(refusal.message).label(node.span(), refusal.label).help(refusal.help),
+                );
+                None
+            }
+        }
+    }
+
+    /// A number with its place.
+    pub(crate) fn spanned_number(
+        &mut self,
+        node: &Node<'_>,
+        field: &str,
+        quantity: &Quantity,
+    ) -> Option<Spanned<f64>> {
+        self.number(node, field, quantity).map(|value| Spanned::new(value, node.span()))
+    }
+
+    /// `(x, y, z)`; `form` names the three in help texts, such as `(red, green, blue)`.
+    pub(crate) fn triple(
+        &mut self,
+        node: &Node<'_>,
+        field: &str,
+        form: &str,
+        quantity: &Quantity,
+    ) -> Option<Triple> {
+        let expected = format!("three numbers `{form}`");
+        match node.shape() {
+            Shape::Tuple(None, nodes) if nodes.len() == 3 => self.three(node, &nodes, field, quantity),
+            Shape::List(nodes) => {
+                let texts: Vec<&str> = nodes.iter().take(3).map(Node::text).collect();
+                let help = if nodes.len() == 3 && texts.iter().all(|text| text.len() < 24) {
+                    format!("write round brackets: `{field}: ({})`", texts.join(", "))
+                } else {
+                    format!("write `{field}: {form}`")
+                };
+                self.wrong_type(node, field, &expected, help);
+                None
+            }
+            Shape::Number(_) => {
+                let text = node.text();
+                let help =
+                    format!("for the same value in all three, write `{field}: ({text}, {text}, {text})`");
+                self.wrong_type(node, field, &expected, help);
+                None
+            }
+            _ => {
+                self.wrong_type(node, field, &expected, format!("write `{field}: {form}`"));
+                None
+            }
+        }
+    }
+
+    fn three(
+        &mut self,
+        node: &Node<'_>,
+        nodes: &[Node<'_>],
+        field: &str,
+        quantity: &Quantity,
+    ) -> Option<Triple> {
+        // All three are checked before the first failure counts, so that each is reported.
+        let values: Vec<Option<f64>> = nodes.iter().map(|node| self.number(node, field, quantity)).collect();
+        match (values.as_slice(), nodes) {
+            ([Some(x), Some(y), Some(z)], [a, b, c]) => Some(Triple {
+                values: [*x, *y, *z],
+                spans: [a.span(), b.span(), c.span()],
+                span: node.span(),
+            }),
+            _ => None,
+        }
+    }
+
+    /// A text.
+    pub(crate) fn text(&mut self, node: &Node<'_>, field: &str) -> Option<Spanned<String>> {
+        match node.shape() {
+            Shape::Text(text) => Some(Spanned::new(text, node.span())),
+            Shape::Name(name) => {
+                let help = format!("write it in quotes: `{field}: \"{}\"`", name.text);
+                self.wrong_type(node, field, "a text", help);
+                None
+            }
+            _ => {
+                self.wrong_type(node, field, "a text", format!("write `{field}: \"…\"`"));
+                None
+            }
+        }
+    }
+
+    /// Sorts the entries of a struct by the names it knows; reports unknown and repeated ones.
+    pub(crate) fn fields<'a>(
+        &mut self,
+        owner: &'static str,
+        head: Span,
+        entries: Vec<Entry<'a>>,
+        known: &'static [&'static str],
+    ) -> Fields<'a> {
+        self.fields_and_groups(owner, head, entries, known, &[])
+    }
+
+    /// As [`fields`](Self::fields); `grouped` are fields that belong one level deeper, with their group.
+    pub(crate) fn fields_and_groups<'a>(
+        &mut self,
+        owner: &'static str,
+        head: Span,
+        entries: Vec<Entry<'a>>,
+        known: &'static [&'static str],
+        grouped: &[(&'static str, &'static str)],
+    ) -> Fields<'a> {
+        let mut fields = Fields { owner, head, entries: Vec::new(), misspelt: Vec::new() };
+        let mut unknown = Vec::new();
+        for entry in entries {
+            let name = entry.key.text;
+            if let Some(first) = fields.get(name) {
+                let diagnostic = Diagnostic::error(format!("field `{name}` is given twice"))
+                    .label(entry.key.span.clone(), "again here")
+                    .secondary(first.key.span.clone(), "first given here")
+                    .help("remove one of the two");
+                self.report(diagnostic);
+            } else if known.contains(&name) {
+                fields.entries.push(entry);
+            } else {
+                unknown.push(entry.key);
+            }
+        }
+        for key in unknown {
+            let meant = closest(key.text, known.iter().copied().chain(grouped.iter().map(|(name, _)| *name)));
+            let mut diagnostic = Diagnostic::error(format!("unknown field `{}`", shortened(key.text)))
+                .label(key.span.clone(), format!("not a field of {owner}"));
+            if let Some(meant) = meant {
+                let group = grouped.iter().find(|(name, _)| *name == meant).map(|(_, group)| *group);
+                diagnostic = diagnostic.help(match group {
+                    Some(group) => format!("did you mean `{meant}`, within `{group}: (…)`?"),
+                    None if fields.get(meant).is_some() => {
+                        format!("did you mean `{meant}`, which is given already?")
+                    }
+                    None => format!("did you mean `{meant}`?"),
+                });
+                fields.misspelt.push(meant);
+            }
+            self.report(
+                diagnostic.help(format!("the fields of {owner} are {}", list(known.iter().copied()))),
+            );
+        }
+        fields
+    }
+
+    /// Reports a field that must be there.
+    pub(crate) fn missing(&mut self, owner: &str, head: &Span, field: &str, help: impl Into<String>) {
+        self.report(
+            Diagnostic::error(format!("missing field `{field}`"))
+                .label(head.clone(), format!("{owner} needs `{field}`"))
+                .help(help),
+        );
+    }
+}
+
+/// The known fields of a struct.
+pub(crate) struct Fields<'a> {
+    pub(crate) owner: &'static str,
+    /// The struct's name, or its opening bracket.
+    pub(crate) head: Span,
+    entries: Vec<Entry<'a>>,
+    /// Known fields that unknown ones were probably meant to be; they are not missing as well.
+    misspelt: Vec<&'static str>,
+}
+
+impl<'a> Fields<'a> {
+    /// The entry of this name.
+    pub(crate) fn get(&self, name: &str) -> Option<&Entry<'a>> {
+        self.entries.iter().find(|entry| entry.key.text == name)
+    }
+
+    /// Decodes a field that may be left out.
+    pub(crate) fn optional<T>(&self, name: &str, decode: impl FnOnce(&Node<'a>) -> Option<T>) -> Given<T> {
+        match self.get(name) {
+            Some(entry) => Given::of(decode(&entry.value)),
+            None if self.misspelt.contains(&name) => Given::Bad,
+            None => Given::Absent,
+        }
+    }
+
+    /// Decodes a field that must be there.
+    pub(crate) fn required<T>(
+        &self,
+        decoder: &mut Decoder,
+        name: &str,
+        help: &str,
+        decode: impl FnOnce(&mut Decoder, &Node<'a>) -> Option<T>,
+    ) -> Option<T> {
+        match self.get(name) {
+            Some(entry) => decode(decoder, &entry.value),
+            None if self.misspelt.contains(&name) => None,
+            None => {
+                decoder.missing(self.owner, &self.head, name, help);
+                None
+            }
+        }
+    }
+}
+
+/// The place that stands for a struct: its name, or its opening bracket.
+pub(crate) fn head(name: Option<&Name<'_>>, node: &Node<'_>) -> Span {
+    name.map_or_else(
+        || {
+            let Span { file, range } = node.span();
+            Span::new(file, range.start..(range.start + 1).min(range.end))
+        },
+        |name| name.span.clone(),
+    )
+}

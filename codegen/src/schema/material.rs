@@ -1,0 +1,239 @@
+//! Material files.
+
+use subsurface_profile::Length;
+
+use crate::diagnostics::Diagnostic;
+use crate::identifier;
+use crate::schema::decoder::{Decoder, Fields, Given, Triple, head};
+use crate::schema::profile::{ProfileExpression, decode_profile};
+use crate::schema::quantity::{
+    DIFFUSE_MEAN_FREE_PATH, MEAN_FREE_PATH, REFLECTANCE, ROUGHNESS, SURFACE_ALBEDO, TRANSMISSION,
+};
+use crate::source::{FileId, Span, Spanned};
+use crate::suggestion::{closest, shortened};
+use crate::syntax::{Document, Entry, Name, Shape};
+
+/// Version of the grammar of material files that this crate reads.
+pub(crate) const SCHEMA_VERSION: u32 = 1;
+
+/// A material as its file gives it: what is not written is absent, names of other files are names.
+#[derive(Clone, Debug)]
+pub(crate) struct MaterialFile {
+    pub(crate) file: FileId,
+    pub(crate) docs: Vec<String>,
+    /// The word `Material`.
+    pub(crate) head: Span,
+    /// The name and where it is given: the field `name`, or the word `Material` when the file's stem is the name.
+    pub(crate) name: Spanned<String>,
+    pub(crate) base: Given<Spanned<String>>,
+    pub(crate) profile: Given<(ProfileExpression, Span)>,
+    pub(crate) length: Given<LengthGiven>,
+    pub(crate) surface_albedo: Given<Triple>,
+    pub(crate) reflectance_at_normal: Given<Spanned<f64>>,
+    pub(crate) roughness: Given<Spanned<f64>>,
+    pub(crate) transmission_strength: Given<Spanned<f64>>,
+}
+
+/// The length that scales the profile, as given.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct LengthGiven {
+    /// Which length the field's name says it is.
+    pub(crate) kind: Length,
+    /// The field's name.
+    pub(crate) key: Span,
+    pub(crate) value: Triple,
+}
+
+const FIELDS: [&str; 9] = [
+    "version",
+    "name",
+    "base",
+    "profile",
+    "mean_free_path_mm",
+    "diffuse_mean_free_path_mm",
+    "surface_albedo",
+    "specular",
+    "transmission_strength",
+];
+
+/// Fields that a reader may look for one level higher than they are.
+const GROUPED: [(&str, &str); 2] = [("reflectance_at_normal", "specular"), ("roughness", "specular")];
+
+/// Decodes the file of a material; `None` when nothing in it can be trusted.
+pub(crate) fn decode_material(
+    decoder: &mut Decoder,
+    file: FileId,
+    stem: &str,
+    document: &Document<'_>,
+) -> Option<MaterialFile> {
+    let node = &document.value;
+    let (name, entries) = match node.shape() {
+        Shape::Struct(Some(name), entries) if name.text == "Material" => (name, entries),
+        Shape::Tuple(Some(name), nodes) if name.text == "Material" && nodes.is_empty() => (name, Vec::new()),
+        Shape::Name(name) if name.text == "Material" => (name, Vec::new()),
+        Shape::Tuple(Some(name), _) if name.text == "Material" => {
+            decoder.report(
+                Diagnostic::error("the fields of `Material` have no names")
+                    .label(name.span, "expected `name: value` in the brackets")
+                    .help("for example `Material(profile: \"exponential_dipole_searchlight\", …)`"),
+            );
+            return None;
+        }
+        _ => {
+            let found = node.name();
+            let mut diagnostic = Diagnostic::error("expected a material")
+                .label(head(found.as_ref(), node), format!("expected `Material(…)`, found {}", node.kind()));
+            if let Some(meant) = found.as_ref().and_then(|name| closest(name.text, ["Material"])) {
+                diagnostic = diagnostic.help(format!("did you mean `{meant}`?"));
+            }
+            let help = "a material is `Material(profile: …, mean_free_path_mm: …, surface_albedo: …)`; \
+                        profiles belong in the folder `profiles`";
+            decoder.report(diagnostic.help(help));
+            return None;
+        }
+    };
+    check_version(decoder, &entries)?;
+    Some(decode_fields(decoder, file, stem, document, &name, entries))
+}
+
+/// A file from the future may have fields unknown today, so the version is read before any other field.
+fn check_version(decoder: &mut Decoder, entries: &[Entry<'_>]) -> Option<()> {
+    let Some(entry) = entries.iter().find(|entry| entry.key.text == "version") else { return Some(()) };
+    let help = format!("this compiler reads version {SCHEMA_VERSION}: write `version: {SCHEMA_VERSION}`");
+    let Ok(version) = ron::from_str::<u64>(entry.value.text()) else {
+        decoder.wrong_type(&entry.value, "version", "a whole number", help);
+        return Some(());
+    };
+    if version == 0 {
+        decoder.report(
+            Diagnostic::error("there is no schema version 0")
+                .label(entry.value.span(), "versions begin at 1")
+                .help(help),
+        );
+    } else if version > u64::from(SCHEMA_VERSION) {
+        decoder.report(
+            Diagnostic::error(format!("this file is written for schema version {version}"))
+                .label(entry.value.span(), format!("this compiler reads versions up to {SCHEMA_VERSION}"))
+                .help("update the compiler: `cargo update -p subsurface-codegen`, or a newer release of it")
+                .help("nothing else in this file was checked"),
+        );
+        return None;
+    }
+    Some(())
+}
+
+fn decode_fields(
+    decoder: &mut Decoder,
+    file: FileId,
+    stem: &str,
+    document: &Document<'_>,
+    name: &Name<'_>,
+    entries: Vec<Entry<'_>>,
+) -> MaterialFile {
+    const RGB: &str = "(red, green, blue)";
+    let fields = decoder.fields_and_groups("`Material`", name.span.clone(), entries, &FIELDS, &GROUPED);
+    let given_name = fields.optional("name", |node| decoder.text(node, "name"));
+    let is_given = !given_name.is_absent();
+    let material_name = match given_name {
+        Given::Value(name) => name,
+        Given::Absent | Given::Bad => Spanned::new(stem.to_owned(), name.span.clone()),
+    };
+    check_name(decoder, &material_name, is_given);
+    let profile = fields.optional("profile", |node| {
+        decode_profile(decoder, node, "profile").map(|expression| (expression, node.span()))
+    });
+    let length = decode_length(decoder, &fields);
+    let surface_albedo = fields
+        .optional("surface_albedo", |node| decoder.triple(node, "surface_albedo", RGB, &SURFACE_ALBEDO));
+    let (reflectance_at_normal, roughness) = decode_specular(decoder, &fields);
+    let transmission_strength = fields.optional("transmission_strength", |node| {
+        decoder.spanned_number(node, "transmission_strength", &TRANSMISSION)
+    });
+    MaterialFile {
+        file,
+        docs: document.docs.clone(),
+        head: name.span.clone(),
+        name: material_name,
+        base: fields.optional("base", |node| decoder.text(node, "base")),
+        profile,
+        length,
+        surface_albedo,
+        reflectance_at_normal,
+        roughness,
+        transmission_strength,
+    }
+}
+
+fn decode_length(decoder: &mut Decoder, fields: &Fields<'_>) -> Given<LengthGiven> {
+    const RGB: &str = "(red, green, blue)";
+    let mut decode = |name, kind, quantity| {
+        fields.optional(name, |node| {
+            let value = decoder.triple(node, name, RGB, quantity)?;
+            let key = fields.get(name)?.key.span.clone();
+            Some(LengthGiven { kind, key, value })
+        })
+    };
+    let length = decode("mean_free_path_mm", Length::MeanFreePath, &MEAN_FREE_PATH);
+    let diffuse = decode("diffuse_mean_free_path_mm", Length::DiffuseMeanFreePath, &DIFFUSE_MEAN_FREE_PATH);
+    match (fields.get("mean_free_path_mm"), fields.get("diffuse_mean_free_path_mm")) {
+        (None, None) if length.is_bad() || diffuse.is_bad() => Given::Bad, // misspelt
+        (Some(one), Some(other)) => {
+            decoder.report(
+                Diagnostic::error("two lengths are given for one profile")
+                    .label(other.key.span.clone(), "given here")
+                    .secondary(one.key.span.clone(), "and here")
+                    .help("a profile is scaled by one length: remove the one that your profile does not use")
+                    .help("`Burley(parametrization: DiffuseMeanFreePath)` takes the diffuse mean free path, other models the mean free path"),
+            );
+            Given::Bad
+        }
+        (Some(_), None) => length,
+        (None, _) => diffuse,
+    }
+}
+
+fn decode_specular(decoder: &mut Decoder, fields: &Fields<'_>) -> (Given<Spanned<f64>>, Given<Spanned<f64>>) {
+    let Some(entry) = fields.get("specular") else { return (Given::Absent, Given::Absent) };
+    let entries = match entry.value.shape() {
+        Shape::Struct(None, entries) => entries,
+        Shape::Tuple(None, nodes) if nodes.is_empty() => Vec::new(),
+        _ => {
+            let help = "write `specular: (reflectance_at_normal: 0.028, roughness: 0.40)`";
+            decoder.wrong_type(&entry.value, "specular", "named numbers", help);
+            return (Given::Bad, Given::Bad);
+        }
+    };
+    let head = head(None, &entry.value);
+    let inner = decoder.fields("`specular`", head, entries, &["reflectance_at_normal", "roughness"]);
+    let mut number =
+        |name, quantity| inner.optional(name, |node| decoder.spanned_number(node, name, quantity));
+    (number("reflectance_at_normal", &REFLECTANCE), number("roughness", &ROUGHNESS))
+}
+
+fn check_name(decoder: &mut Decoder, name: &Spanned<String>, is_given: bool) {
+    let Err(bad) = identifier::check(&name.value) else { return };
+    let shown = shortened(&name.value);
+    let label = if is_given {
+        "the name of a material becomes an identifier in WGSL and Rust"
+    } else {
+        "named after its file; the name becomes an identifier in WGSL and Rust"
+    };
+    let remedy = if is_given {
+        format!("for example `name: \"{}\"`", bad.suggestion)
+    } else {
+        format!("rename the file, for example to `{0}.ron`, or give `name: \"{0}\"`", bad.suggestion)
+    };
+    decoder.report(
+        Diagnostic::error(if shown.is_empty() {
+            "the name is empty".to_owned()
+        } else {
+            format!("the name `{shown}` {}", bad.reason)
+        })
+        .label(name.span.clone(), label)
+        .help(format!(
+            "use up to {} letters a-z, digits and single underscores, beginning with a letter",
+            identifier::LONGEST_NAME
+        ))
+        .help(remedy),
+    );
+}

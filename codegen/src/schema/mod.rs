@@ -1,0 +1,12 @@
+//! What material and profile files may say: shapes with spans in, checked values with spans out.
+//!
+//! Everything that can be said of one file alone is said here; names of other files stay names.
+
+mod decoder;
+mod material;
+mod profile;
+mod quantity;
+
+pub(crate) use decoder::{Decoder, Given, Triple};
+pub(crate) use material::{LengthGiven, MaterialFile, SCHEMA_VERSION, decode_material};
+pub(crate) use profile::{ProfileExpression, ProfileFile, decode_profile_file, rounded};

@@ -1,0 +1,605 @@
+//! Profile files and inline profiles.
+
+use std::collections::BTreeMap;
+
+use subsurface_profile::{
+    BurleyModel, BurleyShape, Channel, ExponentialDipoleModel, GaussianSumModel, GaussianTerm, Length,
+    Medium, Model, ModelError, PolynomialA, PolynomialB, PolynomialC, PolynomialModel,
+};
+
+use crate::diagnostics::Diagnostic;
+use crate::schema::decoder::{Decoder, Fields, head};
+use crate::schema::quantity::{COEFFICIENT, VARIANCE, WEIGHT};
+use crate::source::{FileId, Span, Spanned};
+use crate::suggestion::{closest, list, shortened};
+use crate::syntax::{Document, Entry, Name, Node, Shape};
+
+/// A file of `profiles/`.
+#[derive(Clone, Debug)]
+pub(crate) struct ProfileFile {
+    pub(crate) file: FileId,
+    pub(crate) stem: String,
+    pub(crate) docs: Vec<String>,
+    /// `None` when the file has errors.
+    pub(crate) expression: Option<ProfileExpression>,
+}
+
+/// What stands where a profile is expected.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum ProfileExpression {
+    /// The stem of a profile file.
+    Named(Spanned<String>),
+    /// A model with its coefficients.
+    Inline(InlineModel),
+}
+
+/// A model and where it is written.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct InlineModel {
+    pub(crate) model: Model,
+    /// The model's name.
+    pub(crate) head: Span,
+}
+
+const MODELS: [&str; 4] = ["Burley", "Polynomial", "GaussianSum", "ExponentialDipole"];
+
+/// Surface albedos at which a model must have a profile. A texture may give any from 0 to 1 per pixel, so a model that
+/// fails somewhere is refused; 32 steps find a failure wider than 0.03, and both ends have their own limits.
+fn probed_surface_albedos() -> impl Iterator<Item = f64> {
+    (0..=32).map(|step| f64::from(step) / 32.0)
+}
+
+/// Decodes a file of `profiles/`.
+pub(crate) fn decode_profile_file(
+    decoder: &mut Decoder,
+    file: FileId,
+    stem: String,
+    document: &Document<'_>,
+) -> ProfileFile {
+    let node = &document.value;
+    let expression = if node.name().is_some_and(|name| name.text == "Material") {
+        decoder.report(
+            Diagnostic::error("expected a profile, found a material")
+                .label(head(node.name().as_ref(), node), "a material does not belong among profiles")
+                .help(format!("profiles are {} or the name of another profile in quotes", list(MODELS)))
+                .help("move the file one folder up, out of `profiles`"),
+        );
+        None
+    } else {
+        decode_profile(decoder, node, "profile")
+    };
+    ProfileFile { file, stem, docs: document.docs.clone(), expression }
+}
+
+/// Decodes what stands where a profile is expected.
+pub(crate) fn decode_profile(
+    decoder: &mut Decoder,
+    node: &Node<'_>,
+    field: &str,
+) -> Option<ProfileExpression> {
+    let (name, body) = match node.shape() {
+        Shape::Text(text) => return Some(ProfileExpression::Named(Spanned::new(text, node.span()))),
+        Shape::Struct(Some(name), entries) => (name, Body::Fields(entries)),
+        Shape::Tuple(Some(name), nodes) => (name, Body::Values(nodes)),
+        Shape::Name(name) => (name, Body::Fields(Vec::new())),
+        _ => {
+            let help = format!(
+                "write the stem of a profile file in quotes, or a model: {}",
+                list(MODELS.map(example))
+            );
+            decoder.wrong_type(node, field, "a profile", help);
+            return None;
+        }
+    };
+    let Decoded { model, spans } = match name.text {
+        "Burley" => {
+            let entries = body.fields(decoder, &name)?;
+            burley(decoder, &name, entries)
+        }
+        "Polynomial" => {
+            let entries = body.fields(decoder, &name)?;
+            polynomial(decoder, &name, entries)
+        }
+        "GaussianSum" => {
+            let list = body.single(decoder, &name)?;
+            gaussian_sum(decoder, &list)
+        }
+        "ExponentialDipole" => {
+            let entries = body.fields(decoder, &name)?;
+            exponential_dipole(decoder, &name, entries)
+        }
+        _ => {
+            unknown_model(decoder, &name);
+            None
+        }
+    }?;
+    let errors = model_errors(&model);
+    for error in &errors {
+        decoder.report(describe(error, &name, &spans));
+    }
+    errors.is_empty().then_some(ProfileExpression::Inline(InlineModel { model, head: name.span }))
+}
+
+fn unknown_model(decoder: &mut Decoder, name: &Name<'_>) {
+    let mut diagnostic = Diagnostic::error(format!("unknown profile model `{}`", shortened(name.text)))
+        .label(name.span.clone(), "not a profile model");
+    match closest(name.text, MODELS) {
+        // Models are capitalised, files are not.
+        _ if name.text.starts_with(|c: char| c.is_lowercase()) => {
+            let help = format!("a profile file is named in quotes: `\"{}\"`", shortened(name.text));
+            diagnostic = diagnostic.help(help);
+        }
+        Some(meant) => diagnostic = diagnostic.help(format!("did you mean `{meant}`?")),
+        None => {
+            diagnostic = diagnostic.help("a profile file is named in quotes: `profile: \"burley_diffuse\"`")
+        }
+    }
+    decoder.report(diagnostic.help(format!("the models are {}", list(MODELS))));
+}
+
+fn example(model: &str) -> &'static str {
+    match model {
+        "Burley" => "Burley(parametrization: Searchlight)",
+        "Polynomial" => "Polynomial(coefficients: Liang2023)",
+        "GaussianSum" => "GaussianSum([(variance_mm2: 1.0, weight: 1.0)])",
+        _ => "ExponentialDipole(entry: Searchlight)",
+    }
+}
+
+/// What stands in the brackets of a model.
+enum Body<'a> {
+    Fields(Vec<Entry<'a>>),
+    Values(Vec<Node<'a>>),
+}
+
+impl<'a> Body<'a> {
+    fn fields(self, decoder: &mut Decoder, name: &Name<'_>) -> Option<Vec<Entry<'a>>> {
+        match self {
+            Body::Fields(entries) => Some(entries),
+            Body::Values(nodes) if nodes.is_empty() => Some(Vec::new()),
+            Body::Values(_) => {
+                decoder.report(
+                    Diagnostic::error(format!("the fields of `{}` have no names", name.text))
+                        .label(name.span.clone(), "expected `name: value` in the brackets")
+                        .help(format!("for example `{}`", example(name.text))),
+                );
+                None
+            }
+        }
+    }
+
+    fn single(self, decoder: &mut Decoder, name: &Name<'_>) -> Option<Node<'a>> {
+        if let Body::Values(nodes) = self
+            && let [node] = nodes.as_slice()
+        {
+            return Some(*node);
+        }
+        decoder.report(
+            Diagnostic::error(format!("`{}` takes one list", name.text))
+                .label(name.span.clone(), "expected `[…]` in the brackets")
+                .help(format!("for example `{}`", example(name.text))),
+        );
+        None
+    }
+}
+
+/// A model with the places of its coefficients, by the paths that [`ModelError`] uses.
+struct Decoded {
+    model: Model,
+    spans: BTreeMap<String, Span>,
+}
+
+impl Decoded {
+    fn new(model: Model, spans: BTreeMap<String, Span>) -> Option<Self> {
+        Some(Self { model, spans })
+    }
+}
+
+/// One of a few words.
+fn choice<'n>(
+    decoder: &mut Decoder,
+    node: &Node<'n>,
+    field: &str,
+    words: &[&'static str],
+) -> Option<&'static str> {
+    let name = match node.shape() {
+        Shape::Name(name) => name,
+        Shape::Text(text) if words.contains(&text.as_str()) => {
+            let help = format!("write it without quotes: `{field}: {text}`");
+            decoder.wrong_type(node, field, "a word", help);
+            return None;
+        }
+        _ => {
+            let help = format!("the choices are {}", list(words.iter().copied()));
+            decoder.wrong_type(node, field, "a word", help);
+            return None;
+        }
+    };
+    let found = words.iter().copied().find(|word| *word == name.text);
+    if found.is_none() {
+        unknown_word(decoder, &name, field, words);
+    }
+    found
+}
+
+fn unknown_word(decoder: &mut Decoder, name: &Name<'_>, field: &str, words: &[&'static str]) {
+    let mut diagnostic = Diagnostic::error(format!("unknown {field} `{}`", shortened(name.text)))
+        .label(name.span.clone(), "not one of the choices");
+    if let Some(meant) = closest(name.text, words.iter().copied()) {
+        diagnostic = diagnostic.help(format!("did you mean `{meant}`?"));
+    }
+    decoder.report(diagnostic.help(format!("the choices are {}", list(words.iter().copied()))));
+}
+
+/// Reads the number in field `name`; `prefix` is the path of the struct in its model.
+fn coefficient(
+    decoder: &mut Decoder,
+    fields: &Fields<'_>,
+    spans: &mut BTreeMap<String, Span>,
+    prefix: &str,
+    name: &str,
+) -> Option<f64> {
+    fields.required(decoder, name, &format!("add `{name}: …`, a number"), |decoder, node| {
+        spans.insert(format!("{prefix}{name}"), node.span());
+        decoder.number(node, name, &COEFFICIENT)
+    })
+}
+
+fn burley(decoder: &mut Decoder, name: &Name<'_>, entries: Vec<Entry<'_>>) -> Option<Decoded> {
+    const WORDS: [&str; 4] = ["Searchlight", "Diffuse", "DiffuseMeanFreePath", "Fit"];
+    const HELP: &str = "add `parametrization: Searchlight`, `Diffuse`, `DiffuseMeanFreePath` or `Fit(…)`";
+    let fields = decoder.fields("`Burley`", name.span.clone(), entries, &["parametrization"]);
+    let mut spans = BTreeMap::new();
+    let model = fields.required(decoder, "parametrization", HELP, |decoder, node| {
+        spans.insert("shape".to_owned(), node.span());
+        match node.shape() {
+            Shape::Struct(Some(fit), entries) if fit.text == "Fit" => {
+                spans.insert("shape".to_owned(), fit.span.clone());
+                burley_fit(decoder, &fit, entries, &mut spans)
+            }
+            Shape::Struct(Some(other), _) | Shape::Tuple(Some(other), _) if other.text != "Fit" => {
+                unknown_word(decoder, &other, "parametrization", &WORDS);
+                None
+            }
+            Shape::Tuple(Some(fit), _) => burley_fit(decoder, &fit, Vec::new(), &mut spans),
+            Shape::Name(fit) if fit.text == "Fit" => burley_fit(decoder, &fit, Vec::new(), &mut spans),
+            _ => Some(match choice(decoder, node, "parametrization", &WORDS)? {
+                "Searchlight" => BurleyModel::SEARCHLIGHT,
+                "Diffuse" => BurleyModel::DIFFUSE,
+                _ => BurleyModel::DIFFUSE_MEAN_FREE_PATH,
+            }),
+        }
+    })?;
+    Decoded::new(Model::Burley(model), spans)
+}
+
+fn burley_fit(
+    decoder: &mut Decoder,
+    name: &Name<'_>,
+    entries: Vec<Entry<'_>>,
+    spans: &mut BTreeMap<String, Span>,
+) -> Option<BurleyModel> {
+    const LENGTHS: [&str; 2] = ["MeanFreePath", "DiffuseMeanFreePath"];
+    const FIELDS: [&str; 6] = ["length", "constant", "slope", "amplitude", "pivot", "exponent"];
+    let fields = decoder.fields("`Fit`", name.span.clone(), entries, &FIELDS);
+    let length = fields.required(
+        decoder,
+        "length",
+        "add `length: MeanFreePath` or `length: DiffuseMeanFreePath`",
+        |decoder, node| choice(decoder, node, "length", &LENGTHS),
+    );
+    let mut number = |name| coefficient(decoder, &fields, spans, "shape.", name);
+    let numbers =
+        [number("constant"), number("slope"), number("amplitude"), number("pivot"), number("exponent")];
+    let (Some(length), [Some(constant), Some(slope), Some(amplitude), Some(pivot), Some(exponent)]) =
+        (length, numbers)
+    else {
+        return None;
+    };
+    let length = if length == "MeanFreePath" { Length::MeanFreePath } else { Length::DiffuseMeanFreePath };
+    Some(BurleyModel { length, shape: BurleyShape { constant, slope, amplitude, pivot, exponent } })
+}
+
+fn polynomial(decoder: &mut Decoder, name: &Name<'_>, entries: Vec<Entry<'_>>) -> Option<Decoded> {
+    let fields = decoder.fields("`Polynomial`", name.span.clone(), entries, &["coefficients", "a", "b", "c"]);
+    let spelled: Vec<&Entry<'_>> = ["a", "b", "c"].iter().filter_map(|key| fields.get(key)).collect();
+    if let Some(preset) = fields.get("coefficients") {
+        if let Some(first) = spelled.first() {
+            conflict(decoder, &preset.key, &first.key, "a published set, or `a`, `b` and `c`");
+            return None;
+        }
+        let model = match choice(decoder, &preset.value, "coefficients", &["Liang2023", "Liang2023Printed"])?
+        {
+            "Liang2023" => PolynomialModel::LIANG_2023,
+            _ => PolynomialModel::LIANG_2023_PRINTED,
+        };
+        return Decoded::new(Model::Polynomial(model), BTreeMap::new());
+    }
+    if spelled.is_empty() {
+        let help = "add `coefficients: Liang2023`, or the groups `a: (…)`, `b: (…)` and `c: (…)`";
+        decoder.missing("`Polynomial`", &name.span, "coefficients", help);
+        return None;
+    }
+    let mut spans = BTreeMap::new();
+    let a = group(decoder, &fields, "a", "`a`", &["linear", "amplitude", "decades"], &mut spans);
+    let b = group(
+        decoder,
+        &fields,
+        "b",
+        "`b`",
+        &["scale", "curvature", "pivot", "offset", "exponent"],
+        &mut spans,
+    );
+    let c = group(decoder, &fields, "c", "`c`", &["amplitude", "rate", "offset"], &mut spans);
+    let (a, b, c) = (a?, b?, c?);
+    let model = PolynomialModel {
+        a: PolynomialA { linear: a[0], amplitude: a[1], decades: a[2] },
+        b: PolynomialB { scale: b[0], curvature: b[1], pivot: b[2], offset: b[3], exponent: b[4] },
+        c: PolynomialC { amplitude: c[0], rate: c[1], offset: c[2] },
+    };
+    Decoded::new(Model::Polynomial(model), spans)
+}
+
+/// A group of named numbers, such as `a: (linear: …, amplitude: …, decades: …)`.
+fn group(
+    decoder: &mut Decoder,
+    fields: &Fields<'_>,
+    key: &'static str,
+    owner: &'static str,
+    names: &'static [&'static str],
+    spans: &mut BTreeMap<String, Span>,
+) -> Option<Vec<f64>> {
+    let form: Vec<String> = names.iter().map(|name| format!("{name}: …")).collect();
+    let form = format!("({})", form.join(", "));
+    fields.required(decoder, key, &format!("add `{key}: {form}`"), |decoder, node| {
+        let Shape::Struct(None, entries) = node.shape() else {
+            decoder.wrong_type(node, key, "named numbers", format!("write `{key}: {form}`"));
+            return None;
+        };
+        spans.insert(key.to_owned(), node.span());
+        let inner = decoder.fields(owner, head(None, node), entries, names);
+        let prefix = format!("{key}.");
+        let numbers: Vec<Option<f64>> =
+            names.iter().map(|name| coefficient(decoder, &inner, spans, &prefix, name)).collect();
+        numbers.into_iter().collect()
+    })
+}
+
+fn conflict(decoder: &mut Decoder, one: &Name<'_>, other: &Name<'_>, choice: &str) {
+    decoder.report(
+        Diagnostic::error(format!("`{}` and `{}` exclude each other", one.text, other.text))
+            .label(one.span.clone(), "given here")
+            .secondary(other.span.clone(), "and here")
+            .help(format!("give either {choice}")),
+    );
+}
+
+fn exponential_dipole(decoder: &mut Decoder, name: &Name<'_>, entries: Vec<Entry<'_>>) -> Option<Decoded> {
+    const LISTS: [&str; 4] =
+        ["exponential_weight", "exponential_length", "dipole_depth", "dipole_attenuation"];
+    const FIELDS: [&str; 5] =
+        ["entry", "exponential_weight", "exponential_length", "dipole_depth", "dipole_attenuation"];
+    const FORM: &str = "(constant, linear, quadratic)";
+    let fields = decoder.fields("`ExponentialDipole`", name.span.clone(), entries, &FIELDS);
+    let spelled = LISTS.iter().find_map(|key| fields.get(key));
+    if let Some(entry) = fields.get("entry") {
+        if let Some(first) = spelled {
+            conflict(decoder, &entry.key, &first.key, "an entry, or all four lists of coefficients");
+            return None;
+        }
+        let model = match choice(decoder, &entry.value, "entry", &["Searchlight", "Diffuse"])? {
+            "Searchlight" => ExponentialDipoleModel::SEARCHLIGHT,
+            _ => ExponentialDipoleModel::DIFFUSE,
+        };
+        return Decoded::new(Model::ExponentialDipole(model), BTreeMap::new());
+    }
+    if spelled.is_none() {
+        let help = format!("add `entry: Searchlight` or `entry: Diffuse`, or all of {}", list(LISTS));
+        decoder.missing("`ExponentialDipole`", &name.span, "entry", help);
+        return None;
+    }
+    let mut spans = BTreeMap::new();
+    let lists = LISTS.map(|key| {
+        let help = format!("add `{key}: {FORM}`, the coefficients of 1, A and A²");
+        fields.required(decoder, key, &help, |decoder, node| {
+            let triple = decoder.triple(node, key, FORM, &COEFFICIENT)?;
+            spans.insert(key.to_owned(), triple.span.clone());
+            Some(triple.values)
+        })
+    });
+    let [Some(exponential_weight), Some(exponential_length), Some(dipole_depth), Some(dipole_attenuation)] =
+        lists
+    else {
+        return None;
+    };
+    let model =
+        ExponentialDipoleModel { exponential_weight, exponential_length, dipole_depth, dipole_attenuation };
+    Decoded::new(Model::ExponentialDipole(model), spans)
+}
+
+fn gaussian_sum(decoder: &mut Decoder, node: &Node<'_>) -> Option<Decoded> {
+    let Shape::List(nodes) = node.shape() else {
+        let help = format!("for example `{}`", example("GaussianSum"));
+        decoder.wrong_type(node, "GaussianSum", "a list of Gaussians", help);
+        return None;
+    };
+    if nodes.is_empty() {
+        decoder.report(
+            Diagnostic::error("the list of Gaussians is empty")
+                .label(node.span(), "expected at least one Gaussian")
+                .help(format!("for example `{}`", example("GaussianSum"))),
+        );
+        return None;
+    }
+    let terms: Vec<_> = nodes.iter().map(|node| gaussian_term(decoder, node)).collect();
+    let terms = terms.into_iter().collect::<Option<_>>()?;
+    Decoded::new(Model::GaussianSum(GaussianSumModel { terms }), BTreeMap::new())
+}
+
+fn gaussian_term(decoder: &mut Decoder, node: &Node<'_>) -> Option<GaussianTerm> {
+    let Shape::Struct(name, entries) = node.shape() else {
+        let help = "write `(variance_mm2: 1.0, weight: (0.3, 0.2, 0.1))`";
+        decoder.wrong_type(node, "GaussianSum", "a Gaussian `(variance_mm2: …, weight: …)`", help);
+        return None;
+    };
+    let head = head(name.as_ref(), node);
+    let fields = decoder.fields("a Gaussian", head, entries, &["variance_mm2", "weight"]);
+    let variance =
+        fields.required(decoder, "variance_mm2", "add `variance_mm2: …`, in mm²", |decoder, node| {
+            decoder.number(node, "variance_mm2", &VARIANCE)
+        });
+    let help = "add `weight: (red, green, blue)`, or one number for all three";
+    let weight = fields.required(decoder, "weight", help, |decoder, node| match node.shape() {
+        Shape::Number(_) => {
+            let weight = decoder.number(node, "weight", &WEIGHT)?;
+            Some([weight; 3])
+        }
+        _ => decoder.triple(node, "weight", "(red, green, blue)", &WEIGHT).map(|triple| triple.values),
+    });
+    Some(GaussianTerm { variance_mm2: variance?, weight: weight? })
+}
+
+/// All that is wrong with the coefficients, and the first surface albedo at which they give no profile.
+fn model_errors(model: &Model) -> Vec<ModelError> {
+    let errors = model.errors();
+    if !errors.is_empty() {
+        return errors;
+    }
+    let at = |surface_albedo| {
+        let medium = Medium::new(surface_albedo, 1.0).ok()?;
+        model.profile(medium, Channel::Red).err()
+    };
+    probed_surface_albedos().find_map(at).into_iter().collect()
+}
+
+/// The error of a model, at the coefficients that are to blame.
+fn describe(error: &ModelError, name: &Name<'_>, spans: &BTreeMap<String, Span>) -> Diagnostic {
+    // Numbers are rounded: the last digits of e^x differ between systems, and a message must not.
+    let at = |surface_albedo: &f64| format!("at surface albedo {}", rounded(*surface_albedo));
+    let (path, message, label, help): (&str, String, &str, &str) = match error {
+        ModelError::NotFinite { coefficient } => {
+            (coefficient, error.to_string(), "not a finite number", COEFFICIENT.meaning)
+        }
+        ModelError::WeightsSumToZero { channel } => (
+            "",
+            format!("{channel} weights of the Gaussians sum to 0"),
+            "all weights of this channel are 0",
+            "give one Gaussian a weight above 0 in each channel; for a black channel set `surface_albedo` to 0",
+        ),
+        ModelError::NegativeMaximumRadius { radius_mm, surface_albedo } => (
+            "a",
+            format!("the maximum radius is {} mean free paths {}", rounded(*radius_mm), at(surface_albedo)),
+            "r_max = -b/a must be above 0",
+            "a = (linear α + amplitude 10^(decades (α - 1)))/ℓ must be negative: Liang et al. have `linear: -0.0064`",
+        ),
+        ModelError::NoMaximumRadius { surface_albedo } => (
+            "a",
+            format!("the profile has no maximum radius {}", at(surface_albedo)),
+            "a = 0 here, so the profile never falls to 0",
+            "a = (linear α + amplitude 10^(decades (α - 1)))/ℓ must be negative: Liang et al. have `linear: -0.0064`",
+        ),
+        ModelError::NegativeProfile { surface_albedo, .. } => (
+            "b",
+            format!("the profile is negative {}", at(surface_albedo)),
+            "b/c is the profile's value at the origin, so b must be above 0",
+            "b = scale α^(…): give `scale` a value above 0; Liang et al., corrected, have 0.0635",
+        ),
+        ModelError::PoleNotNegative { c_mm, surface_albedo } => (
+            "c",
+            format!("c is {} mean free paths {}", rounded(*c_mm), at(surface_albedo)),
+            "c must be above 0: the profile has a pole at r = -c",
+            "c = (amplitude e^(rate α) + offset) ℓ: make `offset` larger; Liang et al. have 0.166",
+        ),
+        ModelError::ShapeNotPositive { s, surface_albedo } => (
+            "shape",
+            format!("Burley's s is {} {}", rounded(*s), at(surface_albedo)),
+            "s(A) must be above 0",
+            "s(A) = constant + slope A + amplitude |A - pivot|^exponent: make `constant` larger",
+        ),
+        ModelError::ExponentialWeightOutOfRange { weight, surface_albedo } => (
+            "exponential_weight",
+            format!("the exponential's weight is {} {}", rounded(*weight), at(surface_albedo)),
+            "w(A) must be from 0 to 1",
+            "w(A) = constant + linear A + quadratic A² must stay within [0, 1] for all A in [0, 1]",
+        ),
+        ModelError::ExponentialLengthNotPositive { length, surface_albedo } => (
+            "exponential_length",
+            format!("the exponential's length is {} {}", rounded(*length), at(surface_albedo)),
+            "d(A) must be above 0",
+            "d(A) = constant + linear A + quadratic A² must stay above 0 for all A in [0, 1]",
+        ),
+        ModelError::DipoleDepthNotPositive { depth, surface_albedo } => (
+            "dipole_depth",
+            format!("the dipole's depth is {} {}", rounded(*depth), at(surface_albedo)),
+            "z(A) must be above 0",
+            "z(A) = constant + linear A + quadratic A² must stay above 0 for all A in [0, 1]",
+        ),
+        ModelError::NegativeDipoleAttenuation { attenuation, surface_albedo } => (
+            "dipole_attenuation",
+            format!("the dipole's attenuation is {} {}", rounded(*attenuation), at(surface_albedo)),
+            "s(A) must be 0 or more",
+            "s(A) = (1 - A)(constant + linear A + quadratic A²) must not be negative for any A in [0, 1]",
+        ),
+        _ => (
+            "",
+            error.to_string(),
+            "this model has no profile",
+            "compare with a published set of coefficients",
+        ),
+    };
+    let span = spans.get(path).unwrap_or(&name.span).clone();
+    let diagnostic = Diagnostic::error(message).label(span, label).help(help);
+    let of_coefficients_alone = matches!(
+        error,
+        ModelError::NotFinite { .. }
+            | ModelError::NoTerms
+            | ModelError::VarianceNotPositive { .. }
+            | ModelError::NegativeWeight { .. }
+            | ModelError::WeightsSumToZero { .. }
+    );
+    if of_coefficients_alone {
+        diagnostic
+    } else {
+        diagnostic.help(
+            "a texture may set the surface albedo of a pixel: a model needs a profile for all of [0, 1]",
+        )
+    }
+}
+
+/// A number with four significant digits.
+pub(crate) fn rounded(value: f64) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return value.to_string();
+    }
+    let text = format!("{value:.3e}");
+    let short: f64 = text.parse().unwrap_or(value);
+    if (1e-4..1e6).contains(&short.abs()) { short.to_string() } else { format!("{short:e}") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_in_messages_have_four_digits() {
+        for (value, text) in [
+            (0.0, "0"),
+            (1.0, "1"),
+            (-12.345_678, "-12.35"),
+            (0.031_25, "0.03125"),
+            (123_456.0, "123500"),
+            (1.5e-7, "1.5e-7"),
+            (2e30, "2e30"),
+        ] {
+            assert_eq!(rounded(value), text);
+        }
+    }
+
+    #[test]
+    fn every_published_model_has_a_profile_at_every_probed_surface_albedo() {
+        for stem in Model::PUBLISHED {
+            let model = Model::published(stem).expect("its own list");
+            assert_eq!(model_errors(&model), [], "{stem}");
+        }
+    }
+}

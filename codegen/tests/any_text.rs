@@ -1,0 +1,165 @@
+//! No text makes reading a material panic, and every diagnostic about it can be shown.
+
+use proptest::prelude::*;
+use subsurface_codegen::{Loaded, load_memory};
+
+/// Pieces that material files are made of, and some that they are not.
+const PIECES: [&str; 64] = [
+    "Material",
+    "(",
+    ")",
+    "[",
+    "]",
+    "{",
+    "}",
+    ",",
+    ":",
+    "profile",
+    "mean_free_path_mm",
+    "diffuse_mean_free_path_mm",
+    "surface_albedo",
+    "specular",
+    "reflectance_at_normal",
+    "roughness",
+    "transmission_strength",
+    "version",
+    "name",
+    "base",
+    "\"skin\"",
+    "\"p\"",
+    "\"burley_diffuse\"",
+    "Burley",
+    "parametrization",
+    "Fit",
+    "length",
+    "MeanFreePath",
+    "constant",
+    "slope",
+    "amplitude",
+    "pivot",
+    "exponent",
+    "Polynomial",
+    "coefficients",
+    "Liang2023",
+    "a",
+    "b",
+    "c",
+    "GaussianSum",
+    "variance_mm2",
+    "weight",
+    "ExponentialDipole",
+    "entry",
+    "Searchlight",
+    "0",
+    "1",
+    "-0.5",
+    "1e60",
+    "1e-60",
+    "NaN",
+    "inf",
+    "-inf",
+    " ",
+    "\n",
+    "\r\n",
+    "// x\n",
+    "///é\n",
+    "/*",
+    "*/",
+    "#![enable(implicit_some)]",
+    "r#\"",
+    "\u{feff}",
+    "'",
+];
+
+fn pieces() -> impl Strategy<Value = String> {
+    prop::collection::vec(prop::sample::select(PIECES.to_vec()), 0..60).prop_map(|pieces| pieces.concat())
+}
+
+/// A material that is right but for a few characters.
+fn damaged() -> impl Strategy<Value = String> {
+    const GOOD: &str = "/// ä\nMaterial(\n  profile: GaussianSum([(variance_mm2: 0.5, weight: (1, 1, 1))]),\n  \
+                        mean_free_path_mm: (1.3, 0.95, 0.67), surface_albedo: (0.83, 0.64, 0.55),\n  specular: \
+                        (reflectance_at_normal: 0.028, roughness: 0.4), // é\n)";
+    let edit = (0..GOOD.len(), 0..4usize, prop::sample::select(PIECES.to_vec()));
+    prop::collection::vec(edit, 1..4).prop_map(|edits| {
+        let mut text = GOOD.to_owned();
+        for (at, removed, piece) in edits {
+            let boundary =
+                |offset: usize| (0..=offset.min(text.len())).rev().find(|&o| text.is_char_boundary(o));
+            let start = boundary(at).unwrap_or(0);
+            let end = boundary(start + removed).unwrap_or(0).max(start);
+            text.replace_range(start..end, piece);
+        }
+        text
+    })
+}
+
+/// The laws of any result.
+fn check(loaded: &Loaded) {
+    assert_eq!(loaded.set.is_none(), loaded.report.has_errors());
+    let rendered = loaded.report.render(false);
+    for diagnostic in loaded.report.iter() {
+        assert!(!diagnostic.help.is_empty(), "no remedy: {}", diagnostic.message);
+        // The renderer falls back to the bare message when a span does not fit its file; it must not have to.
+        let shown = format!("{}: {}", diagnostic.severity.name(), diagnostic.message);
+        assert!(rendered.contains(shown.lines().next().unwrap_or_default()), "{shown} is not in\n{rendered}");
+        for (span, _) in diagnostic.primary.iter().chain(&diagnostic.secondary) {
+            assert!(
+                loaded.report.sources().text(span.file).get(span.range.clone()).is_some(),
+                "{diagnostic:?}"
+            );
+        }
+    }
+    let _ = loaded.report.render(true);
+    assert_eq!(loaded.report.to_json().as_array().map_or(0, Vec::len), loaded.report.iter().count());
+}
+
+proptest! {
+    #[test]
+    fn random_characters(text in "\\PC{0,200}") {
+        check(&load_memory([("skin.ron", &text), ("profiles/p.ron", &text)]));
+    }
+
+    #[test]
+    fn random_bytes(bytes in prop::collection::vec(any::<u8>(), 0..200)) {
+        check(&load_memory([("skin.ron", &bytes), ("profiles/p.ron", &bytes)]));
+    }
+
+    #[test]
+    fn random_pieces(material in pieces(), profile in pieces()) {
+        check(&load_memory([("skin.ron", &format!("Material({material})")), ("jade.ron", &material)]));
+        check(&load_memory([("skin.ron", "Material(profile: \"p\")"), ("profiles/p.ron", &profile)]));
+    }
+
+    #[test]
+    fn damaged_materials(text in damaged()) {
+        check(&load_memory([("skin.ron", &text)]));
+    }
+
+    #[test]
+    fn random_numbers(numbers in prop::array::uniform6(any::<f64>()), variance in any::<f64>()) {
+        let [a, b, c, d, e, f] = numbers;
+        let text = format!(
+            "Material(profile: GaussianSum([(variance_mm2: {variance:?}, weight: ({d:?}, {e:?}, {f:?}))]), \
+             mean_free_path_mm: ({a:?}, {b:?}, {c:?}), surface_albedo: ({d:?}, {e:?}, {f:?}))"
+        );
+        check(&load_memory([("skin.ron", text)]));
+    }
+
+    #[test]
+    fn random_coefficients(numbers in prop::array::uniform12(-1e3f64..1e3)) {
+        let [a, b, c, d, e, f, g, h, i, j, k, l] = numbers;
+        let polynomial = format!(
+            "Polynomial(a: (linear: {a}, amplitude: {b}, decades: {c}), b: (scale: {d}, curvature: {e}, pivot: {f}, \
+             offset: {g}, exponent: {h}), c: (amplitude: {i}, rate: {j}, offset: {k}))"
+        );
+        let dipole = format!(
+            "ExponentialDipole(exponential_weight: ({a}, {b}, {c}), exponential_length: ({d}, {e}, {f}), \
+             dipole_depth: ({g}, {h}, {i}), dipole_attenuation: ({j}, {k}, {l}))"
+        );
+        let rest = "mean_free_path_mm: (1, 1, 1), surface_albedo: (0.5, 0.5, 0.5)";
+        for model in [polynomial, dipole] {
+            check(&load_memory([("skin.ron", format!("Material(profile: {model}, {rest})"))]));
+        }
+    }
+}

@@ -1,0 +1,46 @@
+//! Where the picture is taken from.
+
+use glam::{Mat4, Vec3};
+
+/// A perspective camera in a right-handed world, y up.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Camera {
+    /// Position in world units.
+    pub position: [f32; 3],
+    /// Point it looks at, in world units; must differ from the position.
+    pub target: [f32; 3],
+    /// Vertical field of view in radians, 0 to π.
+    pub fov_y_radians: f32,
+}
+
+/// A sphere around all that is drawn: shadow maps and clip planes are fitted to it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bounds {
+    /// Centre in world units.
+    pub centre: [f32; 3],
+    /// Radius in world units, > 0.
+    pub radius: f32,
+}
+
+impl Camera {
+    /// Clip space from view space for a frame of this aspect, with clip planes around `bounds`.
+    pub fn projection(&self, aspect: f32, bounds: &Bounds) -> [[f32; 4]; 4] {
+        let distance = Vec3::from(self.position).distance(Vec3::from(bounds.centre));
+        let far = distance + bounds.radius;
+        // A camera inside the bounds still needs a near plane; a thousandth of the far one keeps depth precise.
+        let near = (distance - bounds.radius).max(far * 1e-3);
+        glam::camera::rh::proj::directx::perspective(self.fov_y_radians, aspect, near, far).to_cols_array_2d()
+    }
+
+    /// View space from world space.
+    pub(crate) fn view_from_world(&self) -> Mat4 {
+        let position = Vec3::from(self.position);
+        let forward = (Vec3::from(self.target) - position).try_normalize().unwrap_or(Vec3::NEG_Z);
+        glam::camera::rh::view::look_to_mat4(position, forward, upright(forward))
+    }
+}
+
+/// An up direction that is not parallel to `forward`: y, or x where the camera looks straight up or down.
+pub(crate) fn upright(forward: Vec3) -> Vec3 {
+    if forward.y.abs() > 0.999 { Vec3::X } else { Vec3::Y }
+}

@@ -1,0 +1,161 @@
+//! Meshes and their surfaces on the device.
+
+use wgpu::util::DeviceExt as _;
+
+use crate::Vertex;
+use crate::bindings::kernel::{BindGroup3, GBufferObject};
+
+/// Vertices and indices of one mesh.
+#[derive(Clone, Debug)]
+pub struct Geometry {
+    pub(crate) vertices: wgpu::Buffer,
+    pub(crate) indices: wgpu::Buffer,
+    pub(crate) index_count: u32,
+}
+
+impl Geometry {
+    /// Uploads a list of triangles in world space; front faces wind anticlockwise.
+    ///
+    /// No triangle is no error: such a mesh draws nothing.
+    pub fn new(device: &wgpu::Device, vertices: &[Vertex], indices: &[u32]) -> Self {
+        let buffer = |label, contents: &[u8], usage| {
+            // A buffer of 0 bytes cannot be bound.
+            let padded;
+            let contents = if contents.is_empty() {
+                padded = [0; 4];
+                &padded[..]
+            } else {
+                contents
+            };
+            device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+                label: Some(label),
+                contents,
+                usage,
+            })
+        };
+        Self {
+            vertices: buffer("Geometry vertices", bytemuck::cast_slice(vertices), wgpu::BufferUsages::VERTEX),
+            indices: buffer("Geometry indices", bytemuck::cast_slice(indices), wgpu::BufferUsages::INDEX),
+            index_count: u32::try_from(indices.len()).unwrap_or(u32::MAX),
+        }
+    }
+}
+
+/// Pixels of a texture, 8 bits each of red, green, blue and alpha, row by row from the top.
+#[derive(Clone, Copy, Debug)]
+pub struct TexturePixels<'a> {
+    /// Width in pixels, ≥ 1.
+    pub width: u32,
+    /// Height in pixels, ≥ 1.
+    pub height: u32,
+    /// `4 · width · height` bytes.
+    pub rgba: &'a [u8],
+}
+
+/// The surface of one object.
+#[derive(Clone, Copy, Debug)]
+pub struct SurfaceDescriptor<'a> {
+    /// Number of the material in the kernel; `None` for an opaque object.
+    pub material: Option<u32>,
+    /// Surface albedo that overrides the material's where given (sRGB). Without it the material's own holds.
+    pub surface_albedo: Option<TexturePixels<'a>>,
+    /// Factor on that texture, linear red, green, blue.
+    pub surface_albedo_factor: [f32; 3],
+    /// Tangent-space normals (linear, y up as glTF has it).
+    pub normals: Option<TexturePixels<'a>>,
+    /// Scale of the normals' x and y.
+    pub normal_scale: f32,
+}
+
+impl Default for SurfaceDescriptor<'_> {
+    fn default() -> Self {
+        Self {
+            material: None,
+            surface_albedo: None,
+            surface_albedo_factor: [1.0; 3],
+            normals: None,
+            normal_scale: 1.0,
+        }
+    }
+}
+
+/// A mesh with its surface, ready to draw.
+#[derive(Clone, Debug)]
+pub struct Object {
+    pub(crate) geometry: Geometry,
+    pub(crate) bind_group: wgpu::BindGroup,
+    pub(crate) translucent: bool,
+}
+
+impl Object {
+    pub(crate) fn new(
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        layout: &wgpu::BindGroupLayout,
+        geometry: Geometry,
+        surface: &SurfaceDescriptor<'_>,
+    ) -> Self {
+        let white = TexturePixels { width: 1, height: 1, rgba: &[255; 4] };
+        let flat = TexturePixels { width: 1, height: 1, rgba: &[128, 128, 255, 255] };
+        let colour = surface.surface_albedo.unwrap_or(white);
+        let colour =
+            upload(device, queue, colour, wgpu::TextureFormat::Rgba8UnormSrgb, "Object surface albedo");
+        let normals = surface.normals.unwrap_or(flat);
+        let normals = upload(device, queue, normals, wgpu::TextureFormat::Rgba8Unorm, "Object normals");
+        let sampler = device.create_sampler(&wgpu::SamplerDescriptor {
+            label: Some("Object sampler"),
+            address_mode_u: wgpu::AddressMode::Repeat,
+            address_mode_v: wgpu::AddressMode::Repeat,
+            mag_filter: wgpu::FilterMode::Linear,
+            min_filter: wgpu::FilterMode::Linear,
+            ..Default::default()
+        });
+        let uniform = GBufferObject {
+            surface_albedo_factor: surface.surface_albedo_factor,
+            material: surface.material.and_then(|number| i32::try_from(number).ok()).unwrap_or(-1),
+            normal_scale: if surface.normals.is_some() { surface.normal_scale } else { 0.0 },
+            surface_albedo_override: if surface.surface_albedo.is_some() { 1.0 } else { 0.0 },
+            ..bytemuck::Zeroable::zeroed()
+        };
+        let uniform = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+            label: Some("Object uniform"),
+            contents: bytemuck::bytes_of(&uniform),
+            usage: wgpu::BufferUsages::UNIFORM,
+        });
+        let bind_group = BindGroup3 {
+            object: uniform.as_entire_buffer_binding(),
+            surface_albedo_texture: &colour,
+            normal_texture: &normals,
+            surface_sampler: &sampler,
+        }
+        .create(device, layout, "Object bind group");
+        Self { geometry, bind_group, translucent: surface.material.is_some() }
+    }
+}
+
+fn upload(
+    device: &wgpu::Device,
+    queue: &wgpu::Queue,
+    pixels: TexturePixels<'_>,
+    format: wgpu::TextureFormat,
+    label: &str,
+) -> wgpu::TextureView {
+    let size = wgpu::Extent3d { width: pixels.width, height: pixels.height, depth_or_array_layers: 1 };
+    let descriptor = wgpu::TextureDescriptor {
+        label: Some(label),
+        size,
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format,
+        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+        view_formats: &[],
+    };
+    let texture = device.create_texture_with_data(
+        queue,
+        &descriptor,
+        wgpu::util::TextureDataOrder::LayerMajor,
+        pixels.rgba,
+    );
+    texture.create_view(&wgpu::TextureViewDescriptor { label: Some(label), ..Default::default() })
+}

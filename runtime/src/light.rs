@@ -1,0 +1,65 @@
+//! Lights and their shadow maps' geometry.
+
+use glam::{Mat4, Vec3};
+
+use crate::bindings::kernel;
+use crate::camera::{Bounds, upright};
+
+/// Directional lights that one frame can hold.
+pub const LIGHT_CAPACITY: usize = 4;
+
+/// Radius of the shadow filter over the diameter of the scene: half a millimetre of penumbra on a head's height.
+const SHADOW_SOFTNESS: f32 = 0.002;
+
+/// Radius over which thickness is averaged, over the diameter of the scene: below what a profile of skin resolves.
+const THICKNESS_SOFTNESS: f32 = 0.003;
+
+/// A light at infinity.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DirectionalLight {
+    /// Direction in which the light travels, world space; any length but 0.
+    pub direction: [f32; 3],
+    /// Irradiance on a surface that faces the light, linear red, green, blue. π makes a white diffuse surface white.
+    pub irradiance: [f32; 3],
+}
+
+impl DirectionalLight {
+    fn towards(&self) -> Vec3 {
+        // A direction of length 0 has no meaning; light from above is defined, NaN would spread.
+        -Vec3::from(self.direction).try_normalize().unwrap_or(Vec3::NEG_Y)
+    }
+
+    /// Clip space of the shadow map from world space: an orthographic box around `bounds`, depth 0 nearest the light.
+    pub(crate) fn light_from_world(&self, bounds: &Bounds) -> Mat4 {
+        let towards = self.towards();
+        let radius = bounds.radius;
+        let eye = Vec3::from(bounds.centre) + towards * radius;
+        let view = glam::camera::rh::view::look_to_mat4(eye, -towards, upright(towards));
+        glam::camera::rh::proj::directx::orthographic(-radius, radius, -radius, radius, 0.0, 2.0 * radius)
+            * view
+    }
+
+    pub(crate) fn uniform(
+        &self,
+        bounds: &Bounds,
+        shadow_map_size: u32,
+        millimetres_per_world_unit: f32,
+    ) -> kernel::Light {
+        // Texture coordinates run down, clip space up.
+        let texture_from_clip =
+            Mat4::from_translation(Vec3::new(0.5, 0.5, 0.0)) * Mat4::from_scale(Vec3::new(0.5, -0.5, 1.0));
+        let diameter = 2.0 * bounds.radius;
+        let texel = diameter / shadow_map_size as f32;
+        kernel::Light {
+            shadow_from_world: (texture_from_clip * self.light_from_world(bounds)).to_cols_array_2d(),
+            towards_light: self.towards().into(),
+            shadow_range_mm: diameter * millimetres_per_world_unit,
+            irradiance: self.irradiance,
+            shadow_filter_radius: SHADOW_SOFTNESS,
+            // The filter reaches past a texel's centre by its own radius on a surface seen at a slant.
+            shadow_normal_offset: 2.0 * texel + SHADOW_SOFTNESS * diameter,
+            thickness_filter_radius: THICKNESS_SOFTNESS * diameter,
+            ..bytemuck::Zeroable::zeroed()
+        }
+    }
+}

@@ -1,0 +1,6 @@
+//! The four passes.
+
+pub mod composite;
+pub mod gbuffer;
+pub mod shadow;
+pub mod subsurface;

@@ -1,0 +1,108 @@
+//! Textures that passes render into.
+
+use crate::error::{SizeError, check_size};
+
+/// Stencil value of translucent pixels; only this bit is read or written.
+pub const TRANSLUCENT_STENCIL: u32 = 1;
+
+/// Size of a frame in pixels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Extent {
+    /// Width in pixels.
+    pub width: u32,
+    /// Height in pixels.
+    pub height: u32,
+}
+
+impl Extent {
+    /// `width`×`height` pixels.
+    pub const fn new(width: u32, height: u32) -> Self {
+        Self { width, height }
+    }
+}
+
+impl From<Extent> for wgpu::Extent3d {
+    fn from(size: Extent) -> Self {
+        Self { width: size.width, height: size.height, depth_or_array_layers: 1 }
+    }
+}
+
+/// A texture and its view.
+#[derive(Clone, Debug)]
+pub struct Target {
+    /// The texture; can be copied from.
+    pub texture: wgpu::Texture,
+    /// All of it.
+    pub view: wgpu::TextureView,
+}
+
+impl Target {
+    /// A 2-D target that can be rendered to, read in shaders and copied from.
+    ///
+    /// # Errors
+    /// A size of 0 or beyond the device's limit.
+    pub fn new(
+        device: &wgpu::Device,
+        size: Extent,
+        format: wgpu::TextureFormat,
+        label: &str,
+    ) -> Result<Self, SizeError> {
+        check_size(device, size)?;
+        let texture = device.create_texture(&wgpu::TextureDescriptor {
+            label: Some(label),
+            size: size.into(),
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format,
+            usage: wgpu::TextureUsages::RENDER_ATTACHMENT
+                | wgpu::TextureUsages::TEXTURE_BINDING
+                | wgpu::TextureUsages::COPY_SRC,
+            view_formats: &[],
+        });
+        let view =
+            texture.create_view(&wgpu::TextureViewDescriptor { label: Some(label), ..Default::default() });
+        Ok(Self { texture, view })
+    }
+}
+
+/// The targets of the G-buffer pass.
+#[derive(Clone, Debug)]
+pub struct GBuffer {
+    /// Diffuse irradiance, linear RGB; alpha 1 on geometry.
+    pub irradiance: Target,
+    /// Specular reflection + transmission: radiance that is not scattered; alpha 1 on geometry.
+    pub unscattered: Target,
+    /// Surface albedo (red, green, blue) and the material number, −1 where nothing is translucent.
+    pub surface: Target,
+    /// Depth and stencil: [`TRANSLUCENT_STENCIL`] marks translucent pixels.
+    pub depth_stencil: Target,
+    /// The depth aspect alone, for reading.
+    pub depth: wgpu::TextureView,
+}
+
+impl GBuffer {
+    /// Format of the colour targets: half floats hold irradiance above 1 and material numbers to 2048 exactly.
+    pub const COLOUR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
+    /// Format of depth and stencil: the one with a stencil that every WebGPU device has.
+    pub const DEPTH_STENCIL_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth24PlusStencil8;
+
+    /// # Errors
+    /// A size of 0 or beyond the device's limit.
+    pub fn new(device: &wgpu::Device, size: Extent) -> Result<Self, SizeError> {
+        let colour = |label| Target::new(device, size, Self::COLOUR_FORMAT, label);
+        let depth_stencil = Target::new(device, size, Self::DEPTH_STENCIL_FORMAT, "GBuffer depth-stencil")?;
+        let depth = depth_stencil.texture.create_view(&wgpu::TextureViewDescriptor {
+            label: Some("GBuffer depth"),
+            aspect: wgpu::TextureAspect::DepthOnly,
+            ..Default::default()
+        });
+        Ok(Self {
+            irradiance: colour("GBuffer irradiance")?,
+            unscattered: colour("GBuffer unscattered")?,
+            surface: colour("GBuffer surface")?,
+            depth_stencil,
+            depth,
+        })
+    }
+}

@@ -1,0 +1,41 @@
+/// Taps of the shadow filter.
+const SHADOW_TAPS: u32 = 16u;
+
+/// Position `index` of `count` on a unit disc: equal areas, golden angle (Vogel 1979).
+fn vogel_disc(index: u32, count: u32) -> vec2f {
+    let radius = sqrt((f32(index) + 0.5) / f32(count));
+    let angle = GOLDEN_ANGLE * f32(index);
+    return radius * vec2f(cos(angle), sin(angle));
+}
+
+/// Fraction of the light that reaches a point: `coordinate` is its position in the shadow map (x, y in [0, 1], depth),
+/// `layer` the light's layer, `radius` the filter's radius in texture coordinates.
+///
+/// Percentage-closer filtering, Reeves et al. 1987. Points outside the map are lit.
+fn shadow_visibility(
+    maps: texture_depth_2d_array,
+    comparison: sampler_comparison,
+    coordinate: vec3f,
+    layer: u32,
+    radius: f32,
+) -> f32 {
+    if any(coordinate < vec3f(0.0)) || any(coordinate > vec3f(1.0)) {
+        return 1.0;
+    }
+    var lit = 0.0;
+    for (var tap = 0u; tap < SHADOW_TAPS; tap += 1u) {
+        let offset = radius * vogel_disc(tap, SHADOW_TAPS);
+        lit += textureSampleCompareLevel(maps, comparison, coordinate.xy + offset, layer, coordinate.z);
+    }
+    return lit / f32(SHADOW_TAPS);
+}
+
+/// Depth of the surface nearest to the light at `position` in the shadow map; 1 outside the map.
+fn nearest_to_light(maps: texture_depth_2d_array, position: vec2f, layer: u32) -> f32 {
+    let size = vec2i(textureDimensions(maps));
+    let texel = vec2i(floor(position * vec2f(size)));
+    if any(texel < vec2i(0)) || any(texel >= size) {
+        return 1.0;
+    }
+    return textureLoad(maps, texel, i32(layer), 0);
+}

@@ -1,0 +1,51 @@
+/// How radiance becomes a picture.
+struct CompositeSettings {
+    /// Radiance of the background at the top, red, green, blue.
+    background_top: vec3f,
+    /// Factor on all radiance before tone mapping.
+    exposure: f32,
+    /// Radiance of the background at the bottom, red, green, blue.
+    background_bottom: vec3f,
+    /// 1: tone map to [0, 1]; 0: leave radiance as it is.
+    tone_map: u32,
+    /// 1: encode as sRGB code values; 0: the target encodes, or stays linear.
+    encode_srgb: u32,
+}
+
+@group(0) @binding(0) var<uniform> composite_settings: CompositeSettings;
+/// Irradiance after the subsurface pass.
+@group(0) @binding(1) var diffused_texture: texture_2d<f32>;
+/// Specular reflection + transmission, radiance.
+@group(0) @binding(2) var unscattered_texture: texture_2d<f32>;
+/// Surface albedo (red, green, blue).
+@group(0) @binding(3) var surface_texture: texture_2d<f32>;
+
+@vertex
+fn composite_vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
+    return covering_triangle(index);
+}
+
+/// L = E A / π + specular + transmission, then exposure, tone mapping and sRGB.
+///
+/// The targets' alpha is 1 on geometry and 0 behind it.
+@fragment
+fn composite_fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
+    let pixel = vec2i(position.xy);
+    let diffused = textureLoad(diffused_texture, pixel, 0);
+    let unscattered = textureLoad(unscattered_texture, pixel, 0);
+    let surface_albedo = textureLoad(surface_texture, pixel, 0).rgb;
+
+    let height = f32(textureDimensions(diffused_texture).y);
+    let background = mix(composite_settings.background_top, composite_settings.background_bottom, position.y / height);
+    let lit = diffused.rgb * surface_albedo / PI + unscattered.rgb;
+    let radiance = composite_settings.exposure * select(background, lit, unscattered.a > 0.5);
+
+    var colour = radiance;
+    if composite_settings.tone_map != 0u {
+        colour = clamp(tone_map_neutral(radiance), vec3f(0.0), vec3f(1.0));
+    }
+    if composite_settings.encode_srgb != 0u {
+        colour = srgb_from_linear(colour);
+    }
+    return vec4f(colour, unscattered.a);
+}

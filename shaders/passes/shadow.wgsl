@@ -1,0 +1,13 @@
+/// The light's projection of one shadow map.
+struct ShadowProjection {
+    /// Clip space of the light from world space: orthographic, depth 0 nearest the light.
+    light_from_world: mat4x4f,
+}
+
+@group(0) @binding(0) var<uniform> projection: ShadowProjection;
+
+/// Depth only: the nearest surface along the light.
+@vertex
+fn shadow_vertex(@location(0) position: vec3f) -> @builtin(position) vec4f {
+    return projection.light_from_world * vec4f(position, 1.0);
+}

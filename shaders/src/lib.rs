@@ -1,0 +1,63 @@
+//! Hand-written WGSL, handed out as text.
+//!
+//! A [`Module`] is one `.wgsl` file. Library, profile and kernel modules hold pure functions; a pass module holds
+//! bindings and entry points. No top-level name stands in two modules that may be linked together (library, profiles,
+//! kernels), so a linker can resolve a name by itself: `subsurface-codegen` does.
+//!
+//! ```
+//! let burley = subsurface_shaders::PROFILES.iter().find(|module| module.name == "profiles/burley").unwrap();
+//! assert!(burley.text.contains("fn burley_radial_cdf"));
+//! ```
+//!
+//! What this crate does not know: naga, wgpu, materials, the file system.
+
+/// One WGSL file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Module {
+    /// Folder and file stem, such as `profiles/burley`.
+    pub name: &'static str,
+    /// The file's text.
+    pub text: &'static str,
+}
+
+macro_rules! modules {
+    ($($name:literal),+ $(,)?) => {
+        &[$(Module { name: $name, text: include_str!(concat!("../", $name, ".wgsl")) }),+]
+    };
+}
+
+/// Pure functions that passes, kernels and profiles share.
+pub const LIBRARY: &[Module] = modules![
+    "lib/covering_triangle",
+    "lib/exponential",
+    "lib/low_discrepancy",
+    "lib/numeric_limits",
+    "lib/shadow",
+    "lib/single_scattering_albedo",
+    "lib/specular",
+    "lib/tone",
+];
+
+/// Profile models in f32: the twins of `subsurface-profile`'s.
+///
+/// A module `profiles/<model>` defines `<model>_profile`, `<model>_area_pdf`, `<model>_radial_pdf`,
+/// `<model>_radial_cdf` and `<model>_sample_radius`; lengths in mm.
+pub const PROFILES: &[Module] = modules![
+    "profiles/burley",
+    "profiles/exponential_dipole",
+    "profiles/gaussian_sum",
+    "profiles/polynomial",
+];
+
+/// What a profile is plugged into.
+pub const KERNELS: &[Module] =
+    modules!["kernels/importance_sampled", "kernels/material", "kernels/translucent_pixel"];
+
+/// Passes with their bindings and entry points.
+pub const PASSES: &[Module] =
+    modules!["passes/composite", "passes/gbuffer", "passes/shadow", "passes/subsurface"];
+
+/// The pass of the given name, such as `passes/shadow`.
+pub fn pass(name: &str) -> Option<&'static Module> {
+    PASSES.iter().find(|module| module.name == name)
+}

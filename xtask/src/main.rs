@@ -1,0 +1,99 @@
+//! The commands of the README: `cargo xtask demo`, `test`, `ci` and `bless`.
+
+#![allow(clippy::print_stdout, clippy::print_stderr, reason = "a command line speaks to its user")]
+
+mod driver;
+mod shell;
+
+use std::process::ExitCode;
+
+use shell::{Failure, cargo, run};
+
+const HELP: &str = "\
+The commands of this repository.
+
+Usage: cargo xtask <COMMAND>
+
+Commands:
+  demo    Find or install a Vulkan driver, build, and render a labelled contact sheet of every profile model
+  test    Find or install a Vulkan driver, then run every test
+  ci      Formatting, lints, documentation and every test, as continuous integration does
+  bless   Accept the texts and pictures that the tests now produce; then look at `git diff tests`
+
+Examples:
+  cargo xtask demo
+  cargo xtask demo --size 480x600 --taps 128
+  cargo xtask test -p subsurface-runtime
+";
+
+fn main() -> ExitCode {
+    let mut arguments = std::env::args().skip(1);
+    let command = arguments.next();
+    let rest: Vec<String> = arguments.collect();
+    let result = match command.as_deref() {
+        Some("demo") => demo(&rest),
+        Some("test") => test(&rest),
+        Some("ci") => ci(),
+        Some("bless") => bless(&rest),
+        Some("help" | "--help" | "-h") => {
+            print!("{HELP}");
+            Ok(())
+        }
+        _ => {
+            eprint!("{HELP}");
+            return ExitCode::from(2);
+        }
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(Failure(message)) => {
+            eprintln!("error: {message}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// Renders the contact sheet; further arguments go to `subsurface contact-sheet`.
+fn demo(arguments: &[String]) -> Result<(), Failure> {
+    driver::ensure("release")?;
+    let sheet = shell::root().join("target").join("demo").join("contact-sheet.png");
+    std::fs::create_dir_all(sheet.parent().unwrap_or(&sheet))
+        .map_err(|error| Failure(format!("cannot make the folder of {}: {error}", sheet.display())))?;
+    let mut command = cargo();
+    command.args([
+        "run",
+        "--quiet",
+        "--release",
+        "--package",
+        "subsurface-cli",
+        "--",
+        "contact-sheet",
+        "--out",
+    ]);
+    run(command.arg(&sheet).args(arguments))
+}
+
+/// Runs every test; further arguments go to `cargo test`.
+fn test(arguments: &[String]) -> Result<(), Failure> {
+    driver::ensure("dev")?;
+    let mut command = cargo();
+    command.arg("test");
+    if !arguments.iter().any(|argument| argument == "-p" || argument.starts_with("--package")) {
+        command.arg("--workspace");
+    }
+    run(command.args(arguments))
+}
+
+fn ci() -> Result<(), Failure> {
+    run(&mut std::process::Command::new(shell::root().join(".ci").join("run")))
+}
+
+/// Runs the tests that compare with stored results and stores what they produce now.
+fn bless(arguments: &[String]) -> Result<(), Failure> {
+    driver::ensure("dev")?;
+    run(cargo()
+        .env("INSTA_UPDATE", "always")
+        .env("SUBSURFACE_BLESS", "1")
+        .args(["test", "--workspace"])
+        .args(arguments))
+}
