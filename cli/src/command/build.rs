@@ -5,11 +5,7 @@ use crate::failure::Failure;
 use clap::Args;
 use std::path::PathBuf;
 
-/// Compile a set of materials to WGSL, Rust bindings and a JSON manifest.
-///
-/// Writes subsurface.wgsl (the kernel module: all materials of the set), subsurface.rs (typed bindings that include
-/// it) and subsurface.json (what the module binds, entry points, the parameter table). The same materials give the
-/// same bytes. For Rust projects, `subsurface_codegen::Compiler` in build.rs does the same at every build.
+/// Arguments of `subsurface build`.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:

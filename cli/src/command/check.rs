@@ -17,9 +17,7 @@ pub enum Format {
     Json,
 }
 
-/// Check material and profile files; print errors and warnings, write nothing.
-///
-/// All errors of all files come out in one run. Exits with 1 if there is an error; warnings alone exit with 0.
+/// Arguments of `subsurface check`.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:

@@ -2,8 +2,8 @@
 
 use super::material_set;
 use super::render::{DEFAULT_MATERIAL, PictureFile};
-use super::view::load_scene;
-use crate::draw::{self, DEFAULT_TAPS, Frame, LARGEST_TAPS};
+use super::view::{MeshArguments, load_scene};
+use crate::draw::{DEFAULT_TAPS, Frame, LARGEST_TAPS, Studio};
 use crate::failure::Failure;
 use crate::picture::contact_sheet::{Tile, compose};
 use crate::picture::{file, write_png};
@@ -12,10 +12,7 @@ use crate::scene::camera::{Camera, DEFAULT_FOV_Y_DEGREES, Light, Size};
 use clap::{Args, value_parser};
 use std::path::{Path, PathBuf};
 
-/// Draw one scene with every profile model, side by side with labels.
-///
-/// The tiles: no subsurface, Gaussian sum, Burley, polynomial, exponential + dipole. They differ in the profile alone;
-/// everything else of the material stays.
+/// Arguments of `subsurface contact-sheet`.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
@@ -25,9 +22,9 @@ pub struct ContactSheetArguments {
     /// Directory of materials: one .ron file each, profiles in DIR/profiles.
     #[arg(long, value_name = "DIR", default_value = material_set::DEFAULT_DIRECTORY)]
     pub materials: PathBuf,
-    /// glTF file, binary or text, in metres; by default the procedural bust.
-    #[arg(long, value_name = "FILE.glb")]
-    pub mesh: Option<PathBuf>,
+    /// What is drawn.
+    #[command(flatten)]
+    pub mesh: MeshArguments,
     /// Material of the set; it must give its mean free path.
     #[arg(long, value_name = "NAME", default_value = DEFAULT_MATERIAL)]
     pub material: String,
@@ -68,16 +65,17 @@ pub fn run(arguments: &ContactSheetArguments) -> Result<(), Failure> {
     material_set::number(&original, &arguments.material)?;
     // One set, hence one kernel module, holds all variants.
     let materials = material_set::compile_files(with_variants(&original.files_read, arguments)?)?;
-    let scene = load_scene(arguments.mesh.as_deref())?;
+    let scene = load_scene(&arguments.mesh)?;
     let camera = Camera::framing(&scene.bounds, arguments.size.aspect(), DEFAULT_FOV_Y_DEGREES);
+    let mut studio = Studio::open(&materials)?;
+    println!("{}", studio.description());
     let progress = bar(TILES.len() as u64, "drawing");
     let mut tiles = Vec::new();
     for (caption, profile) in TILES {
         let name = profile.map_or_else(|| arguments.material.clone(), variant_name);
         let material = material_set::number(&materials, &name)?;
-        let drawn = draw::draw(&Frame {
+        let drawn = studio.draw(&Frame {
             scene: &scene,
-            materials: &materials,
             material_of_object: &vec![material; scene.objects.len()],
             camera,
             lights: &Light::DEFAULT,
@@ -85,6 +83,7 @@ pub fn run(arguments: &ContactSheetArguments) -> Result<(), Failure> {
             taps: arguments.taps,
             subsurface: profile.is_some(),
             wants_aovs: false,
+            wants_timings: true,
         })?;
         tiles.push(Tile { picture: drawn.display, caption: caption.to_owned() });
         let total: f64 = drawn.timings.iter().map(|(_, time)| time.as_secs_f64()).sum();

@@ -10,14 +10,7 @@ use crate::scene::camera::Size;
 use clap::{Args, value_parser};
 use std::path::{Path, PathBuf};
 
-/// Run the subsurface pass alone on your own buffers (OpenEXR in and out).
-///
-/// Input channels, 16- or 32-bit, as flat names or as layers: irradiance.R/G/B (diffuse irradiance, linear); Z
-/// (distance along the view axis in mm; 0 or inf is background); optional albedo.R/G/B (surface albedo in [0, 1], by
-/// default that of the material) and material (number of the material: the set's names in alphabetical order, from 0;
-/// by default --material everywhere). Output: R, G, B, the diffused irradiance, 32-bit; background passes through.
-///
-/// This is how to check the kernel against your own ground truth.
+/// Arguments of `subsurface diffuse`.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:

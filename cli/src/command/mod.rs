@@ -6,6 +6,7 @@
     reason = "a command's result goes to standard output, its messages to standard error"
 )]
 
+pub mod adapter;
 pub mod build;
 pub mod check;
 pub mod contact_sheet;
@@ -39,17 +40,38 @@ pub struct Arguments {
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// Draw a scene with a material: the procedural bust, or a glTF file.
+    ///
+    /// glTF is read with node transforms, base colours and normal maps, in metres by its standard. An object whose glTF
+    /// material has the name of a material of the set takes that one, all others take --material.
     Render(render::RenderArguments),
     /// Check material and profile files; print errors and warnings, write nothing.
+    ///
+    /// All errors of all files come out in one run. Exits with 1 if there is an error; warnings alone exit with 0.
     Check(check::CheckArguments),
     /// Compile a set of materials to WGSL, Rust bindings and a JSON manifest.
+    ///
+    /// Writes subsurface.wgsl (the kernel module: all materials of the set), subsurface.rs (typed bindings that include
+    /// it) and subsurface.json (what the module binds, entry points, the parameter table). The same materials give the
+    /// same bytes. For Rust projects, `subsurface_codegen::Compiler` in build.rs does the same at every build.
     Build(build::BuildArguments),
     /// Evaluate or sample a radial diffusion profile on the CPU, in double precision.
     Profile(profile::ProfileArguments),
     /// Run the subsurface pass alone on your own buffers (OpenEXR in and out).
+    ///
+    /// Input channels, 16- or 32-bit, as flat names or as layers: irradiance.R/G/B (diffuse irradiance, linear); Z
+    /// (distance along the view axis in mm; 0 or inf is background); optional albedo.R/G/B (surface albedo in [0, 1], by
+    /// default that of the material) and material (number of the material: the set's names in alphabetical order, from 0;
+    /// by default --material everywhere). Output: R, G, B, the diffused irradiance, 32-bit; background passes through.
+    ///
+    /// This is how to check the kernel against your own ground truth.
     Diffuse(diffuse::DiffuseArguments),
     /// Draw one scene with every profile model, side by side with labels.
+    ///
+    /// The tiles: no subsurface, Gaussian sum, Burley, polynomial, exponential + dipole. They differ in the profile alone;
+    /// everything else of the material stays.
     ContactSheet(contact_sheet::ContactSheetArguments),
+    /// Name the graphics adapter that pictures are drawn on.
+    Adapter(adapter::AdapterArguments),
 }
 
 /// Runs a command.
@@ -61,5 +83,6 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         Command::Profile(arguments) => profile::run(arguments),
         Command::Diffuse(arguments) => diffuse::run(arguments),
         Command::ContactSheet(arguments) => contact_sheet::run(arguments),
+        Command::Adapter(arguments) => adapter::run(arguments),
     }
 }

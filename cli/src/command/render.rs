@@ -1,8 +1,8 @@
 //! `subsurface render`.
 
 use super::material_set;
-use super::view::{ViewArguments, load_scene};
-use crate::draw::{self, DEFAULT_TAPS, Drawn, Frame, LARGEST_TAPS};
+use super::view::{MeshArguments, ViewArguments, load_scene};
+use crate::draw::{DEFAULT_TAPS, Drawn, Frame, LARGEST_TAPS, Studio};
 use crate::failure::Failure;
 use crate::picture::{exr, file, write_png};
 use crate::progress::Spinner;
@@ -15,10 +15,7 @@ use subsurface_codegen::Compilation;
 /// The material when none is given.
 pub(super) const DEFAULT_MATERIAL: &str = "skin";
 
-/// Draw a scene with a material: the procedural bust, or a glTF file.
-///
-/// glTF is read with node transforms, base colours and normal maps, in metres by its standard. An object whose glTF
-/// material has the name of a material of the set takes that one, all others take --material.
+/// Arguments of `subsurface render`.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
@@ -30,9 +27,9 @@ pub struct RenderArguments {
     /// Directory of materials: one .ron file each, profiles in DIR/profiles.
     #[arg(long, value_name = "DIR", default_value = material_set::DEFAULT_DIRECTORY)]
     pub materials: PathBuf,
-    /// glTF file, binary or text, in metres; by default the procedural bust.
-    #[arg(long, value_name = "FILE.glb")]
-    pub mesh: Option<PathBuf>,
+    /// What is drawn.
+    #[command(flatten)]
+    pub mesh: MeshArguments,
     /// Material of the set.
     #[arg(long, value_name = "NAME", default_value = DEFAULT_MATERIAL)]
     pub material: String,
@@ -91,12 +88,11 @@ pub fn run(arguments: &RenderArguments) -> Result<(), Failure> {
     file::folder_of(arguments.out.path())?;
     let materials = material_set::compile(&arguments.materials)?;
     let material = material_set::number(&materials, &arguments.material)?;
-    let scene = load_scene(arguments.mesh.as_deref())?;
+    let scene = load_scene(&arguments.mesh)?;
     let drawn = {
         let _spinner = Spinner::new("drawing");
-        draw::draw(&Frame {
+        Studio::open(&materials)?.draw(&Frame {
             scene: &scene,
-            materials: &materials,
             material_of_object: &material_of_object(&scene, &materials, material),
             camera: arguments.view.camera(&scene, arguments.size)?,
             lights: &arguments.view.lights(),
@@ -104,6 +100,7 @@ pub fn run(arguments: &RenderArguments) -> Result<(), Failure> {
             taps: arguments.taps,
             subsurface: !arguments.no_subsurface,
             wants_aovs: arguments.aov.is_some(),
+            wants_timings: false,
         })?
     };
     save(arguments, &drawn)
@@ -133,9 +130,6 @@ fn save(arguments: &RenderArguments, drawn: &Drawn) -> Result<(), Failure> {
             exr::write_exr(&path, picture)?;
             println!("{}", path.display());
         }
-    }
-    for (pass, time) in &drawn.timings {
-        eprintln!("{pass}: {:.3} ms", time.as_secs_f64() * 1e3);
     }
     Ok(())
 }

@@ -7,18 +7,32 @@ use crate::scene::camera::{Camera, DEFAULT_FOV_Y_DEGREES, Light, Size, Triple};
 use crate::scene::{Scene, bust, gltf};
 use clap::Args;
 use glam::Vec3;
-use std::path::Path;
+use std::path::PathBuf;
 
-/// The scene in `mesh`, or the bust; prints warnings.
-pub(super) fn load_scene(mesh: Option<&Path>) -> Result<Scene, Failure> {
-    let Some(path) = mesh else {
+/// What is drawn.
+#[derive(Debug, Args)]
+pub struct MeshArguments {
+    /// glTF file, binary or text, in metres; by default the procedural bust.
+    #[arg(long, value_name = "FILE.glb")]
+    pub mesh: Option<PathBuf>,
+    /// Turn the file's textures upside down: for files that break glTF's rule that (0, 0) is the upper left.
+    #[arg(long, requires = "mesh")]
+    pub flip_v: bool,
+}
+
+/// The scene in the file, or the bust; prints warnings.
+pub(super) fn load_scene(arguments: &MeshArguments) -> Result<Scene, Failure> {
+    let Some(path) = &arguments.mesh else {
         let _spinner = Spinner::new("sculpting the bust");
         return Ok(bust::scene(bust::CELL_MM));
     };
     let spinner = Spinner::new(format!("reading {}", path.display()));
     let loaded = gltf::load(path, |what| spinner.say(format!("reading {}: {what}", path.display())));
     drop(spinner);
-    let loaded = loaded?;
+    let mut loaded = loaded?;
+    if arguments.flip_v {
+        loaded.scene.flip_texture_v();
+    }
     for suspect in &loaded.warnings {
         eprintln!("{}\n", warning(suspect));
     }

@@ -23,6 +23,13 @@ impl Scene {
         Self { objects, bounds }
     }
 
+    /// Turns texture coordinates with (0, 0) at the lower left, as some converters write them, into glTF's.
+    pub fn flip_texture_v(&mut self) {
+        for [_, v] in self.objects.iter_mut().flat_map(|object| &mut object.mesh.texture_coordinates) {
+            *v = 1.0 - *v;
+        }
+    }
+
     /// How many triangles all objects have together.
     pub fn triangle_count(&self) -> usize {
         self.objects.iter().map(|object| object.mesh.indices.len() / 3).sum()

@@ -54,8 +54,8 @@ fn eye(p: Vec3, d: f32) -> f32 {
     let across = (p.x - 31.0) / 14.0;
     let arc = 1.0 - across * across;
     // The closed lids meet in an arc that hangs down; the crease of the upper lid runs above it.
-    let slit = 1.9 * bell(p.y + 0.5 + 4.4 * arc, 1.1);
-    let crease = 1.3 * bell(p.y - 3.5 - 6.0 * arc, 1.3);
+    let slit = 1.9 * bell(p.y + 0.5 + 4.4 * arc, 1.4);
+    let crease = 1.3 * bell(p.y - 3.5 - 6.0 * arc, 1.7);
     union(d, ball + slit + crease, 3.5)
 }
 

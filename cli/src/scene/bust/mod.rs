@@ -77,8 +77,7 @@ mod tests {
         }
         let reverse = |a: u32, b: u32| edges.get(&(b, a)).copied().unwrap_or(0);
         assert!(edges.iter().all(|((a, b), count)| reverse(*a, *b) == *count));
-        // Surface nets let two sheets that pass through one cell touch in an edge of four triangles. That happens in
-        // the grooves of the hair only.
+        // Surface nets let two sheets that pass through one cell touch in an edge of four triangles.
         let touching = edges.values().filter(|count| **count > 1).count();
         assert!(touching * 200 < edges.len(), "{touching} of {}", edges.len());
     }

@@ -1,0 +1,16 @@
+//! `subsurface adapter`.
+
+use clap::Args;
+
+use crate::draw::device::Device;
+use crate::failure::Failure;
+
+/// Name the graphics adapter that pictures are drawn on; exit with 1 if there is none.
+#[derive(Debug, Args)]
+pub struct AdapterArguments {}
+
+/// Runs the command.
+pub fn run(_: &AdapterArguments) -> Result<(), Failure> {
+    println!("{}", Device::open()?.description());
+    Ok(())
+}
