@@ -21,6 +21,8 @@ pub struct Frame<'a> {
     pub lights: &'a [DirectionalLight],
     /// Irradiance that comes from everywhere alike, linear red, green, blue.
     pub ambient_irradiance: [f32; 3],
+    /// Factor on every material's transmission: 1, or 0 for none.
+    pub transmission: f32,
     /// A sphere around all objects.
     pub bounds: Bounds,
     /// Millimetres that a world unit has: 1000 for metres. There is no default: a wrong scale looks right too often.
@@ -103,6 +105,7 @@ impl Renderer {
                 camera: &frame.camera,
                 lights: frame.lights,
                 ambient_irradiance: frame.ambient_irradiance,
+                transmission: frame.transmission,
                 bounds: frame.bounds,
                 millimetres_per_world_unit: frame.millimetres_per_world_unit,
             },

@@ -72,6 +72,7 @@ impl Scene {
             camera: Camera { position: [0.1, 0.1, 0.3], target: [0.0; 3], fov_y_radians: 0.5 },
             lights: &[DirectionalLight { direction: [-1.0, -1.0, 0.2], irradiance: [3.0; 3] }],
             ambient_irradiance: [0.05; 3],
+            transmission: 1.0,
             bounds: Bounds { centre: [0.0; 3], radius: 0.15 },
             millimetres_per_world_unit: 1000.0,
             taps,

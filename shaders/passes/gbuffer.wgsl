@@ -28,6 +28,8 @@ struct GBufferFrame {
     light_count: u32,
     /// Irradiance that comes from everywhere alike, red, green, blue.
     ambient_irradiance: vec3f,
+    /// Factor on every material's transmission: 1, or 0 for none.
+    transmission: f32,
     lights: array<Light, 4>,
 }
 
@@ -118,9 +120,8 @@ fn transmitted_irradiance(
     profiles: ChannelProfiles,
     surface_albedo: vec3f,
 ) -> vec3f {
-    // Light wraps around the terminator by 0.3 as in that paper: the far side is lit where this side turns away.
-    let facing_away = clamp(0.3 - dot(normal, light.towards_light), 0.0, 1.0);
-    if facing_away == 0.0 {
+    let facing_away = -dot(normal, light.towards_light);
+    if facing_away <= 0.0 {
         return vec3f(0.0);
     }
     let inside = world_position - light.shadow_normal_offset * normal;
@@ -180,9 +181,10 @@ fn gbuffer_fragment(interpolated: GBufferInterpolated, @builtin(front_facing) fr
             row.surface.reflectance_at_normal,
             row.surface.roughness,
         );
-        if translucent && row.surface.transmission_strength > 0.0 {
+        let transmission = frame.transmission * row.surface.transmission_strength;
+        if translucent && transmission > 0.0 {
             let through = transmitted_irradiance(light, i, interpolated.world_position, smooth_normal, profiles, surface_albedo);
-            unscattered += row.surface.transmission_strength * through / PI;
+            unscattered += transmission * through / PI;
         }
     }
 

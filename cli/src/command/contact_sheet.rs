@@ -34,6 +34,9 @@ pub struct ContactSheetArguments {
     /// Samples per pixel of the subsurface pass.
     #[arg(long, value_name = "N", default_value_t = DEFAULT_TAPS, value_parser = value_parser!(u32).range(1..=i64::from(LARGEST_TAPS)))]
     pub taps: u32,
+    /// Pixels drawn per pixel of the sheet, along each side: 2 or more smooth the silhouettes.
+    #[arg(long, value_name = "N", default_value_t = 2, value_parser = value_parser!(u32).range(1..=8))]
+    pub supersample: u32,
     /// The sheet: .png.
     #[arg(long, value_name = "FILE.png", value_parser = png)]
     pub out: PathBuf,
@@ -84,6 +87,7 @@ pub fn run(arguments: &ContactSheetArguments) -> Result<(), Failure> {
             subsurface: profile.is_some(),
             wants_aovs: false,
             wants_timings: true,
+            supersampling: arguments.supersample,
         })?;
         tiles.push(Tile { picture: drawn.display, caption: caption.to_owned() });
         let total: f64 = drawn.timings.iter().map(|(_, time)| time.as_secs_f64()).sum();

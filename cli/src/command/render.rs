@@ -45,6 +45,9 @@ pub struct RenderArguments {
     /// Leave the subsurface pass out: what a plain diffuse surface looks like.
     #[arg(long)]
     pub no_subsurface: bool,
+    /// Pixels drawn per pixel of the picture, along each side: 2 or more smooth the silhouettes.
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = value_parser!(u32).range(1..=8))]
+    pub supersample: u32,
     /// The picture: .png (tone-mapped, 8-bit sRGB) or .exr (linear, 32-bit float).
     #[arg(long, value_name = "FILE.png|FILE.exr", value_parser = PictureFile::parse)]
     pub out: PictureFile,
@@ -101,6 +104,7 @@ pub fn run(arguments: &RenderArguments) -> Result<(), Failure> {
             subsurface: !arguments.no_subsurface,
             wants_aovs: arguments.aov.is_some(),
             wants_timings: false,
+            supersampling: arguments.supersample,
         })?
     };
     save(arguments, &drawn)

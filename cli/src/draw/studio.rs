@@ -40,6 +40,8 @@ pub struct Frame<'a> {
     pub lights: &'a [Light],
     /// Size of the picture.
     pub size: Size,
+    /// Pixels drawn per pixel of the picture, along each side: 1, or more for smooth silhouettes.
+    pub supersampling: u32,
     /// Samples per pixel of the subsurface pass, in 1..=[`LARGEST_TAPS`](super::LARGEST_TAPS).
     pub taps: u32,
     /// Whether light goes below the surface at all.
@@ -102,7 +104,12 @@ fn draw(
     linear: &mut CompositePass,
     frame: &Frame<'_>,
 ) -> Result<Drawn, Failure> {
-    let size = Extent::new(frame.size.width, frame.size.height);
+    let factor = frame.supersampling.max(1);
+    let drawn_size = Size {
+        width: frame.size.width.saturating_mul(factor),
+        height: frame.size.height.saturating_mul(factor),
+    };
+    let size = Extent::new(drawn_size.width, drawn_size.height);
     renderer.resize(&device.device, size).map_err(|error| beyond_device(&error))?;
     let objects = objects(device, renderer, frame)?;
     prepare(device, renderer, frame);
@@ -135,9 +142,10 @@ fn draw(
     let bytes = device.read_bytes(&display.texture)?;
     let pixels = bytes.chunks_exact(4).map(|texel| [texel[0], texel[1], texel[2]]).collect();
     Ok(Drawn {
-        display: DisplayPicture { size: frame.size, pixels },
-        linear: picture(device, &linear_target, frame.size)?,
-        aovs: if frame.wants_aovs { aovs(device, targets, diffused, frame.size)? } else { Vec::new() },
+        display: DisplayPicture { size: drawn_size, pixels }.shrunk(factor),
+        linear: picture(device, &linear_target, drawn_size)?.shrunk(factor),
+        // Depth and material numbers have no mean: these stay as they were drawn.
+        aovs: if frame.wants_aovs { aovs(device, targets, diffused, drawn_size)? } else { Vec::new() },
         timings,
     })
 }
@@ -170,6 +178,7 @@ fn prepare(device: &Device, renderer: &mut Renderer, frame: &Frame<'_>) {
             ambient_irradiance: [std::f32::consts::PI * AMBIENT_INTENSITY; 3],
             bounds,
             millimetres_per_world_unit: MILLIMETRES_PER_WORLD_UNIT,
+            transmission: if frame.subsurface { 1.0 } else { 0.0 },
             taps: if frame.subsurface { frame.taps } else { 0 },
             seed: 0,
             composite: CompositeSettings::default(),

@@ -56,8 +56,8 @@ impl Light {
     /// behind that shines through the ear.
     pub const DEFAULT: [Light; 2] = [
         // Unit vectors to the last digit that f32 has; see the test.
-        Light { direction: [0.662_266_2, -0.529_812_93, -0.529_812_93], intensity: 2.6 },
-        Light { direction: [-0.702_247, -0.117_041_16, 0.702_247], intensity: 2.2 },
+        Light { direction: [0.662_266_2, -0.529_812_93, -0.529_812_93], intensity: 1.25 },
+        Light { direction: [-0.702_247, -0.117_041_16, 0.702_247], intensity: 1.6 },
     ];
 }
 

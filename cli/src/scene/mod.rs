@@ -3,6 +3,7 @@
 pub mod bust;
 pub mod camera;
 pub mod gltf;
+pub mod texture_orientation;
 
 /// Everything to draw.
 #[derive(Clone, Debug, Default)]
@@ -25,9 +26,7 @@ impl Scene {
 
     /// Turns texture coordinates with (0, 0) at the lower left, as some converters write them, into glTF's.
     pub fn flip_texture_v(&mut self) {
-        for [_, v] in self.objects.iter_mut().flat_map(|object| &mut object.mesh.texture_coordinates) {
-            *v = 1.0 - *v;
-        }
+        self.objects.iter_mut().for_each(|object| object.mesh.flip_texture_v());
     }
 
     /// How many triangles all objects have together.
@@ -99,6 +98,13 @@ pub struct Mesh {
     pub texture_coordinates: Vec<[f32; 2]>,
     /// Three indices into the lists per triangle.
     pub indices: Vec<u32>,
+}
+
+impl Mesh {
+    /// Turns texture coordinates with (0, 0) at the lower left into glTF's, or back.
+    pub fn flip_texture_v(&mut self) {
+        self.texture_coordinates.iter_mut().for_each(|[_, v]| *v = 1.0 - *v);
+    }
 }
 
 /// Colours and relief of a surface; how it scatters is the material's business.

@@ -21,6 +21,8 @@ pub struct GBufferView<'a> {
     pub lights: &'a [DirectionalLight],
     /// Irradiance that comes from everywhere alike, linear red, green, blue.
     pub ambient_irradiance: [f32; 3],
+    /// Factor on every material's transmission: 1, or 0 for none.
+    pub transmission: f32,
     /// A sphere around all objects.
     pub bounds: Bounds,
     /// Millimetres that a world unit has: 1000 for metres.
@@ -158,6 +160,7 @@ impl GBufferPass {
         frame.clip_from_world = (projection * view.camera.view_from_world()).to_cols_array_2d();
         frame.camera_position = view.camera.position;
         frame.ambient_irradiance = view.ambient_irradiance;
+        frame.transmission = view.transmission;
         frame.light_count = view.lights.len().min(LIGHT_CAPACITY) as u32;
         for (slot, light) in frame.lights.iter_mut().zip(view.lights) {
             *slot = light.uniform(&view.bounds, self.shadow_map_size, view.millimetres_per_world_unit);

@@ -1,0 +1,3 @@
+fn main() {
+    subsurface_codegen::Compiler::new("materials").build_or_exit();
+}
