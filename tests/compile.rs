@@ -18,7 +18,8 @@ fn a_set_of_one_model_compiles_to_the_blessed_texts() {
     let skin = include_str!("in/pass/one_model/skin.ron");
     let compilation = Compiler::from_memory([("skin.ron", skin)]).without_gbuffer().compile();
     let compilation = compilation.unwrap_or_else(|report| panic!("{report}"));
-    for (folder, text) in [("wgsl", &compilation.wgsl), ("rust", &compilation.rust), ("manifest", &compilation.manifest)]
+    for (folder, text) in
+        [("wgsl", &compilation.wgsl), ("rust", &compilation.rust), ("manifest", &compilation.manifest)]
     {
         // The hash covers every shader and the version: it changes with each, and says nothing new beside the text.
         assert_blessed(folder, "one_model", &text.replace(&compilation.provenance, "<sha256>"));

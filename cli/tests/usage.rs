@@ -48,10 +48,15 @@ fn an_argument_out_of_range_is_a_usage_error_that_says_the_range() {
         (&["render", "--out", "a.png", "--size", "100"], "WIDTHxHEIGHT"),
         (&["render", "--out", "a.png", "--size", "100000x1"], "32768"),
         (&["render", "--out", "a.jpg"], ".png or .exr"),
-        (&["render", "--out", "a.png", "--taps", "0"], "1..=1024"),
+        (&["render", "--out", "a.png", "--taps", "0"], "1..=4096"),
         (&["render", "--out", "a.png", "--light", "0,0,0"], "direction is zero"),
         (&["render", "--out", "a.png", "--camera", "1,2"], "three numbers"),
         (&["render", "--out", "a.png", "--fov-y-degrees", "180"], "between 1 and 170"),
+        (
+            &["render", "--out", "a.png", "--mesh", "a.glb", "--flip-v=maybe"],
+            "possible values: auto, always, never",
+        ),
+        (&["render", "--out", "a.png", "--flip-v"], "--mesh <FILE.glb>"),
         (&["contact-sheet", "--out", "a.exr"], ".png"),
         (&["diffuse", "--material", "skin", "--input", "a.exr", "--out", "b.exr"], "--mm-per-pixel"),
         (

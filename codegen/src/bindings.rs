@@ -4,6 +4,7 @@
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{format_ident, quote};
 
+use crate::docs::Docs;
 use crate::identifier::camel_case;
 use crate::layout::{Field, FieldType, Structure, structure};
 use crate::material::MaterialSet;
@@ -26,11 +27,25 @@ pub(crate) struct SetBindings<'a> {
 }
 
 /// Docs of a generated item; `fallback` where the WGSL or RON has none, since generated code must not warn.
-fn docs(lines: &[String], fallback: &str) -> TokenStream {
+fn doc_attributes(lines: &[String], fallback: &str) -> TokenStream {
     let fallback = [fallback.to_owned()];
     let lines = if lines.iter().all(|line| line.is_empty()) { &fallback[..] } else { lines };
-    let lines = lines.iter().map(|line| format!(" {line}"));
+    let lines = lines.iter().map(|line| format!(" {}", without_links(line)));
     quote!(#(#[doc = #lines])*)
+}
+
+/// Escapes square brackets outside of code: a citation such as [CB15] is no link to an item.
+fn without_links(line: &str) -> String {
+    let mut escaped = String::with_capacity(line.len());
+    let mut code = false;
+    for character in line.chars() {
+        code ^= character == '`';
+        if !code && matches!(character, '[' | ']') {
+            escaped.push('\\');
+        }
+        escaped.push(character);
+    }
+    escaped
 }
 
 /// Formats tokens; their own layout where they are no file (a defect that the consumer's compiler reports better).
@@ -45,6 +60,7 @@ pub(crate) fn format(header: &str, tokens: TokenStream) -> String {
 /// Structs, bind groups, vertex inputs and entry points; structs whose name is in `without` are left out.
 pub(crate) fn module_tokens(
     module: &naga::Module,
+    docs: &Docs,
     reflection: &Reflection,
     paths: &Paths,
     groups: impl Fn(u32) -> bool,
@@ -52,7 +68,7 @@ pub(crate) fn module_tokens(
 ) -> TokenStream {
     let mut tokens = TokenStream::new();
     for &handle in &reflection.structures {
-        if let Some(structure) = structure(module, handle)
+        if let Some(structure) = structure(module, docs, handle)
             && !without.contains(&structure.name.as_str())
         {
             tokens.extend(structure_tokens(module, &structure, paths));
@@ -68,7 +84,7 @@ pub(crate) fn module_tokens(
     for entry in &reflection.entry_points {
         let name = format_ident!("ENTRY_{}", entry.name.to_ascii_uppercase());
         let (text, fallback) = (&entry.name, format!("{:?} entry point `{}`.", entry.stage, entry.name));
-        let docs = docs(&entry.docs, &fallback);
+        let docs = doc_attributes(&entry.docs, &fallback);
         tokens.extend(quote!(#docs pub const #name: &str = #text;));
     }
     tokens
@@ -132,10 +148,10 @@ fn structure_tokens(module: &naga::Module, structure: &Structure, paths: &Paths)
     let bytemuck = &paths.bytemuck;
     let crate_path = bytemuck.to_string().replace(' ', "");
     let name = Ident::new(&structure.name, Span::call_site());
-    let struct_docs = docs(&structure.docs, &format!("`{}` of the WGSL.", structure.name));
+    let struct_docs = doc_attributes(&structure.docs, &format!("`{}` of the WGSL.", structure.name));
     let fields = slots(structure).into_iter().map(|slot| match slot {
         Slot::Field(field) => {
-            let docs = docs(&field.docs, &format!("`{}` of the WGSL.", field.name));
+            let docs = doc_attributes(&field.docs, &format!("`{}` of the WGSL.", field.name));
             let name = Ident::new(&field.name, Span::call_site());
             let ty = rust_type(module, &field.ty);
             quote!(#docs pub #name: #ty)
@@ -173,7 +189,7 @@ fn bind_group_tokens(number: u32, bindings: &[(u32, &Bound)], paths: &Paths) -> 
     let names: Vec<_> =
         bindings.iter().map(|(_, bound)| Ident::new(&bound.name, Span::call_site())).collect();
     let fields = bindings.iter().zip(&names).map(|((binding, bound), name)| {
-        let docs = docs(&bound.docs, &format!("`@group({number}) @binding({binding})`."));
+        let docs = doc_attributes(&bound.docs, &format!("`@group({number}) @binding({binding})`."));
         let ty = match bound.resource {
             Resource::Uniform { .. } | Resource::Storage { .. } => quote!(#wgpu::BufferBinding<'a>),
             Resource::Texture { .. } => quote!(&'a #wgpu::TextureView),
@@ -280,9 +296,9 @@ fn vertex_tokens(input: &VertexInput, paths: &Paths) -> TokenStream {
     let (wgpu, bytemuck) = (&paths.wgpu, &paths.bytemuck);
     let crate_path = bytemuck.to_string().replace(' ', "");
     let name = Ident::new(&input.name, Span::call_site());
-    let struct_docs = docs(&input.docs, &format!("Vertex input `{}` of the WGSL.", input.name));
+    let struct_docs = doc_attributes(&input.docs, &format!("Vertex input `{}` of the WGSL.", input.name));
     let fields = input.attributes.iter().map(|(name, lines, location, components)| {
-        let docs = docs(lines, &format!("`@location({location}) {name}`."));
+        let docs = doc_attributes(lines, &format!("`@location({location}) {name}`."));
         let name = Ident::new(name, Span::call_site());
         let components = Literal::usize_unsuffixed(*components);
         quote!(#docs pub #name: [f32; #components])
@@ -339,7 +355,7 @@ pub(crate) fn set_tokens(
         names.iter().map(|name| Ident::new(&camel_case(name), Span::call_site())).collect();
     let declarations =
         bindings.set.materials.iter().zip(&variants).enumerate().map(|(number, (material, variant))| {
-            let docs = docs(&material.docs, &format!("The material `{}`.", material.name));
+            let docs = doc_attributes(&material.docs, &format!("The material `{}`.", material.name));
             let number = Literal::usize_unsuffixed(number);
             quote!(#docs #variant = #number)
         });
@@ -400,7 +416,7 @@ fn literal(module: &naga::Module, structure: &Structure, value: &Value) -> Token
             let expression = match (&field.ty, value.field(&field.name)) {
                 (FieldType::Struct(handle), inner) => {
                     let zero = Value::Struct(Vec::new());
-                    let inner_structure = self::structure(module, *handle);
+                    let inner_structure = self::structure(module, &Docs::default(), *handle);
                     inner_structure.map(|s| literal(module, &s, inner.unwrap_or(&zero))).unwrap_or_default()
                 }
                 (_, Some(Value::F32(value))) => number(*value),

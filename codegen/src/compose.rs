@@ -5,6 +5,7 @@ use std::ops::Range;
 
 use subsurface_shaders::Module;
 
+use crate::docs::Docs;
 use crate::item::{Item, Items, items};
 use crate::source::Span;
 
@@ -23,11 +24,18 @@ pub(crate) struct Linked {
     pub(crate) text: String,
     /// Ranges of `text` that spell a value of a material file, sorted and disjoint.
     origins: Vec<(Range<usize>, Span)>,
-    /// Names of the modules that contributed, in the order of the text.
-    pub(crate) modules: Vec<String>,
+    /// Doc comments of what was kept.
+    pub(crate) docs: Docs,
+    /// Names of the modules that contributed, in the order of the text, and where their part starts.
+    pub(crate) modules: Vec<(usize, String)>,
 }
 
 impl Linked {
+    /// The module that the byte at `offset` comes from.
+    pub(crate) fn module_at(&self, offset: usize) -> Option<&str> {
+        self.modules.iter().rev().find(|(start, _)| *start <= offset).map(|(_, name)| name.as_str())
+    }
+
     /// The place in a material file that caused the WGSL at `range`.
     pub(crate) fn origin(&self, range: &Range<usize>) -> Option<&Span> {
         self.origins
@@ -39,8 +47,7 @@ impl Linked {
 
 /// Why modules cannot be linked. All are defects of the shaders, not of a material.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[non_exhaustive]
-pub enum LinkError {
+pub(crate) enum LinkError {
     /// A declaration does not end.
     #[error("a declaration of {module} does not end (byte {offset})")]
     Unfinished {
@@ -67,6 +74,9 @@ pub enum LinkError {
     },
 }
 
+/// Name of the part that the emitter wrote.
+pub(crate) const GLUE: &str = "the material set";
+
 /// Links `modules` and `glue`: keeps what the `roots` reach, module by module in the given order, glue first.
 pub(crate) fn link(
     modules: &[Module],
@@ -74,7 +84,6 @@ pub(crate) fn link(
     roots: &[&str],
     header: &str,
 ) -> Result<Linked, LinkError> {
-    const GLUE: &str = "the material set";
     let mut parts: Vec<(&str, Items<'_>)> = Vec::with_capacity(modules.len() + 1);
     let sources = std::iter::once((GLUE, glue.text.as_str())).chain(modules.iter().map(|m| (m.name, m.text)));
     for (name, text) in sources {
@@ -94,13 +103,14 @@ pub(crate) fn link(
     }
     let reached = reach(&declared, roots)?;
 
-    let mut linked = Linked { text: header.to_owned(), origins: Vec::new(), modules: Vec::new() };
+    let mut linked =
+        Linked { text: header.to_owned(), origins: Vec::new(), docs: Docs::default(), modules: Vec::new() };
     for (module, part) in &parts {
         let kept: Vec<_> = part.items.iter().filter(|item| reached.contains(item.name)).collect();
         if kept.is_empty() {
             continue;
         }
-        linked.modules.push((*module).to_owned());
+        linked.modules.push((linked.text.len(), (*module).to_owned()));
         linked.text.push_str(&format!("\n// ── {module} ──\n"));
         if !part.preamble.is_empty() {
             linked.text.push_str(part.preamble);
@@ -108,6 +118,7 @@ pub(crate) fn link(
         }
         for item in kept {
             linked.text.push('\n');
+            linked.docs.add(item);
             if *module == GLUE {
                 linked.keep_origins(glue, item);
             }
@@ -172,7 +183,11 @@ mod tests {
         assert!(linked.text.starts_with("// head\n"));
         assert!(linked.text.contains("// About a.") && linked.text.contains("LIMIT = 1.0"));
         assert!(!linked.text.contains("unused") && !linked.text.contains("never"));
-        assert_eq!(linked.modules, ["the material set", "a", "b"]);
+        assert_eq!(
+            linked.modules.iter().map(|(_, name)| name.as_str()).collect::<Vec<_>>(),
+            ["the material set", "a", "b"]
+        );
+        assert_eq!(linked.module_at(linked.text.len() - 1), Some("b"));
     }
 
     #[test]

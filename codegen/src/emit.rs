@@ -4,15 +4,13 @@
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
-use subsurface_profile::{Channel, GaussianSumModel, Model};
+use subsurface_profile::{GaussianSumModel, Model};
 
 use crate::compose::Glue;
-use crate::material::{Material, MaterialSet};
+use crate::identifier::screaming_case;
+use crate::material::{Material, MaterialSet, ResolvedProfile};
 use crate::source::Span;
 use crate::value::{Value, single};
-
-/// Quantile of the radius by which the widest channel is chosen: the one that a filter would be cut at.
-const WIDTH_QUANTILE: f64 = 0.997;
 
 /// The profile models, in the order of their numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -92,7 +90,7 @@ pub(crate) fn emit(set: &MaterialSet) -> Result<Emitted, UnknownModel> {
         .collect();
 
     let mut glue = Glue::default();
-    emit_constants(&mut glue.text, set.materials.len(), &models);
+    emit_constants(&mut glue.text, set, &models);
     emit_row(&mut glue.text, &models);
     emit_dispatch(&mut glue.text, &models);
     if models.contains(&ModelKind::GaussianSum) {
@@ -112,7 +110,6 @@ fn row(material: &Material, kind: ModelKind, models: &[ModelKind], terms: &mut G
         ("length_mm", Value::vector(material.length_mm)),
         ("model", Value::U32(number(models, kind))),
         ("surface_albedo", Value::vector(material.surface_albedo)),
-        ("widest_channel", Value::U32(widest_channel(material))),
         ("reflectance_at_normal", Value::scalar(material.reflectance_at_normal)),
         ("roughness", Value::scalar(material.roughness)),
         ("transmission_strength", Value::scalar(material.transmission_strength)),
@@ -152,58 +149,47 @@ fn coefficients(material: &Material, terms: &mut GaussianTerms) -> Value {
             ("c_offset", Value::scalar(model.c.offset)),
         ]),
         Model::GaussianSum(model) => {
-            let (first, count) = terms.add(model, &material.profile.span);
+            let (first, count) = terms.add(model, &material.profile);
             Value::Struct(vec![("first_term", Value::U32(first)), ("term_count", Value::U32(count))])
         }
         _ => Value::Struct(Vec::new()),
     }
 }
 
-/// The channel whose profile is widest at the material's own surface albedo; the first of equals.
-///
-/// The loader evaluated the same profiles, so none fails here; a channel that did would just not be chosen.
-fn widest_channel(material: &Material) -> u32 {
-    let mut widest = (0, f64::NEG_INFINITY);
-    for (number, channel) in (0u32..).zip(Channel::ALL) {
-        let index = channel.index();
-        let medium =
-            subsurface_profile::Medium::new(material.surface_albedo[index], material.length_mm[index]);
-        let profile = medium.ok().and_then(|medium| material.profile.model.profile(medium, channel).ok());
-        if let Some(profile) = profile {
-            let width = profile.filter_radius(WIDTH_QUANTILE);
-            // A relative margin far above rounding keeps the choice the same on machines whose exp() differs by an ulp.
-            if width > widest.1 + 1e-9 * widest.1.abs() || widest.1 == f64::NEG_INFINITY {
-                widest = (number, width);
-            }
-        }
-    }
-    widest.0
-}
-
 /// Terms of all Gaussian sums of a set; equal sums share theirs.
 #[derive(Debug, Default)]
 struct GaussianTerms {
-    sums: Vec<(GaussianSumModel, u32, Span)>,
+    sums: Vec<(GaussianSumModel, u32, ResolvedProfile)>,
     count: u32,
 }
 
 impl GaussianTerms {
     /// First term and number of terms of `model`.
-    fn add(&mut self, model: &GaussianSumModel, span: &Span) -> (u32, u32) {
+    fn add(&mut self, model: &GaussianSumModel, profile: &ResolvedProfile) -> (u32, u32) {
         let count =
             u32::try_from(model.terms.len()).expect("a file of at most 1 MiB lists fewer than 2^32 terms");
         if let Some((_, first, _)) = self.sums.iter().find(|(known, ..)| known == model) {
             return (*first, count);
         }
         let first = self.count;
-        self.sums.push((model.clone(), first, span.clone()));
+        self.sums.push((model.clone(), first, profile.clone()));
         self.count += count;
         (first, count)
     }
 }
 
-fn emit_constants(text: &mut String, material_count: usize, models: &[ModelKind]) {
+fn emit_constants(text: &mut String, set: &MaterialSet, models: &[ModelKind]) {
+    let material_count = set.materials.len();
     let _ = writeln!(text, "/// Materials in the set.\nconst MATERIAL_COUNT: u32 = {material_count}u;\n");
+    // Nothing of ours names a material, but a pass of the caller's own may; unused ones are dropped.
+    for (number, material) in set.materials.iter().enumerate() {
+        let name = screaming_case(&material.name);
+        let _ = writeln!(
+            text,
+            "/// Number of the material `{}`.\nconst MATERIAL_{name}: u32 = {number}u;\n",
+            material.name
+        );
+    }
     for (number, model) in models.iter().enumerate() {
         let _ = writeln!(text, "const {}: u32 = {number}u;\n", model.constant());
     }
@@ -288,15 +274,17 @@ fn emit_gaussian_terms(glue: &mut Glue, terms: &GaussianTerms) {
         "/// Weights (red, green, blue; their sum is 1 per channel and model) and variance, mm².\n",
     );
     let _ = writeln!(text, "const GAUSSIAN_SUM_TERMS = array<vec4f, {}>(", terms.count);
-    for (model, _, span) in &terms.sums {
+    for (model, _, profile) in &terms.sums {
         let sum = |channel: usize| model.terms.iter().map(|term| term.weight[channel]).sum::<f64>();
         let sums = [sum(0), sum(1), sum(2)];
-        for term in &model.terms {
+        for (index, term) in model.terms.iter().enumerate() {
             let [red, green, blue] = [0, 1, 2].map(|channel| single(term.weight[channel] / sums[channel]));
             let start = text.len() + 4;
             let _ =
                 writeln!(text, "    vec4f({red:?}, {green:?}, {blue:?}, {:?}),", single(term.variance_mm2));
-            glue.origins.push((start..text.len() - 2, span.clone()));
+            let spelled = profile.coefficient_spans.get(&format!("terms[{index}].variance_mm2"));
+            let origin = spelled.unwrap_or(&profile.span).clone();
+            glue.origins.push((start..text.len() - 2, origin));
         }
     }
     text.push_str(");\n");

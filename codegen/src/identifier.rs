@@ -3,7 +3,7 @@
 use naga::keywords::wgsl;
 
 /// Longest name, in characters. WGSL sets no limit below 255; a longer one is hard to read in any language.
-pub const LONGEST_NAME: usize = 64;
+pub(crate) const LONGEST_NAME: usize = 64;
 
 /// Keywords of Rust 2024, reserved ones included (The Rust Reference, "Keywords").
 const RUST_KEYWORDS: [&str; 53] = [
@@ -92,7 +92,7 @@ fn suggestion(name: &str) -> String {
 
 /// `skin_pale` as the name of a Rust enum variant: `SkinPale`.
 #[must_use]
-pub fn camel_case(name: &str) -> String {
+pub(crate) fn camel_case(name: &str) -> String {
     let capitalised = |word: &str| {
         let mut letters = word.chars();
         letters
@@ -105,7 +105,7 @@ pub fn camel_case(name: &str) -> String {
 
 /// `skin_pale` as the name of a constant: `SKIN_PALE`.
 #[must_use]
-pub fn screaming_case(name: &str) -> String {
+pub(crate) fn screaming_case(name: &str) -> String {
     name.to_ascii_uppercase()
 }
 

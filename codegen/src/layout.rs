@@ -2,6 +2,7 @@
 
 use naga::{Handle, Module, ScalarKind, Type, TypeInner, VectorSize};
 
+use crate::docs::Docs;
 use crate::value::Value;
 
 /// Shape of a field, as far as the generated Rust needs it.
@@ -49,35 +50,22 @@ pub(crate) struct Structure {
 }
 
 /// The layout of a struct; `None` for another type, or one that no Rust struct can mirror.
-pub(crate) fn structure(module: &Module, handle: Handle<Type>) -> Option<Structure> {
+pub(crate) fn structure(module: &Module, docs: &Docs, handle: Handle<Type>) -> Option<Structure> {
     let ty = &module.types[handle];
     let TypeInner::Struct { members, span } = &ty.inner else { return None };
+    let name = ty.name.clone()?;
     let mut fields = Vec::with_capacity(members.len());
-    for (index, member) in members.iter().enumerate() {
-        let docs = module.doc_comments.as_ref().and_then(|docs| docs.struct_members.get(&(handle, index)));
+    for member in members {
+        let member_name = member.name.clone()?;
         fields.push(Field {
-            name: member.name.clone()?,
-            docs: docs.map(|lines| doc_lines(lines)).unwrap_or_default(),
+            docs: docs.of_member(&name, &member_name),
+            name: member_name,
             offset: member.offset,
             size: module.types[member.ty].inner.try_size(module.to_ctx())?,
             ty: field_type(module, member.ty)?,
         });
     }
-    let docs = module.doc_comments.as_ref().and_then(|docs| docs.types.get(&handle));
-    Some(Structure {
-        name: ty.name.clone()?,
-        docs: docs.map(|lines| doc_lines(lines)).unwrap_or_default(),
-        size: *span,
-        fields,
-    })
-}
-
-/// naga hands doc comments out as written; without their slashes they are Markdown.
-pub(crate) fn doc_lines(lines: &[String]) -> Vec<String> {
-    let stripped = lines.iter().flat_map(|line| line.lines());
-    stripped
-        .map(|line| line.trim().trim_start_matches('/').trim_start_matches('!').trim().to_owned())
-        .collect()
+    Some(Structure { docs: docs.of(&name), name, size: *span, fields })
 }
 
 fn field_type(module: &Module, handle: Handle<Type>) -> Option<FieldType> {
@@ -116,7 +104,7 @@ fn field_type(module: &Module, handle: Handle<Type>) -> Option<FieldType> {
 
 /// The bytes of `value` in the layout of the struct `handle`; fields that the value does not name are zero.
 pub(crate) fn bytes(module: &Module, handle: Handle<Type>, value: &Value) -> Vec<u8> {
-    let Some(layout) = structure(module, handle) else { return Vec::new() };
+    let Some(layout) = structure(module, &Docs::default(), handle) else { return Vec::new() };
     let mut bytes = vec![0; layout.size as usize];
     for field in &layout.fields {
         let Some(value) = value.field(&field.name) else { continue };

@@ -4,9 +4,10 @@ mod bindings;
 mod compiler;
 mod compose;
 pub mod diagnostics;
+mod docs;
 mod emit;
 mod excerpt;
-pub mod identifier;
+mod identifier;
 mod item;
 mod layout;
 mod lint;
@@ -24,12 +25,10 @@ mod validate;
 mod value;
 
 pub use compiler::{Compilation, Compiler, Pass, runtime_bindings};
-pub use compose::LinkError;
 pub use diagnostics::{Diagnostic, Report, Severity};
 pub use load::{
     Checked, Loaded, LoadedProfile, check_paths, load_directory, load_memory, load_profile, load_profile_file,
 };
 pub use material::{Material, MaterialSet, ResolvedProfile};
 pub use output::BuildError;
-pub use reflect::UnsupportedBinding;
 pub use source::{FileId, SourceMap, Span, Spanned};

@@ -278,6 +278,7 @@ fn load_profile_path(reader: &mut Reader, path: &Path) -> Option<ResolvedProfile
             model: inline.model,
             docs: profile.docs,
             span: inline.head,
+            coefficient_spans: inline.coefficients,
         }),
         ProfileExpression::Named(name) => {
             let folder = path.parent().unwrap_or_else(|| Path::new(""));
@@ -301,7 +302,13 @@ fn load_named(reader: &mut Reader, folder: &Path, name: &Spanned<String>) -> Opt
         ChainEnd::Model(profile) => Some(*profile),
         ChainEnd::Published(stem, model) => {
             let span = name.span.clone();
-            Some(ResolvedProfile { stem: Some(stem), model, docs: Vec::new(), span })
+            Some(ResolvedProfile {
+                stem: Some(stem),
+                model,
+                docs: Vec::new(),
+                span,
+                coefficient_spans: Default::default(),
+            })
         }
         ChainEnd::Unknown => {
             let last = chain.files.last().and_then(|file| named_in(&files, *file)).unwrap_or(name);

@@ -3,6 +3,7 @@
 use naga::Module;
 use serde_json::{Value, json};
 
+use crate::docs::Docs;
 use crate::layout::{FieldType, structure};
 use crate::material::MaterialSet;
 use crate::reflect::{Bound, Reflection, Resource, Sample};
@@ -52,7 +53,7 @@ pub(crate) fn manifest(
     let structures: Vec<Value> = reflection
         .structures
         .iter()
-        .filter_map(|&handle| structure(module, handle))
+        .filter_map(|&handle| structure(module, &Docs::default(), handle))
         .map(|structure| {
             let fields: Vec<Value> = structure
                 .fields

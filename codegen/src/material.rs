@@ -1,5 +1,7 @@
 //! Materials after every name is resolved and every value is checked: what the back half of the compiler reads.
 
+use std::collections::BTreeMap;
+
 use subsurface_profile::Model;
 
 use crate::source::Span;
@@ -41,6 +43,8 @@ pub struct ResolvedProfile {
     pub docs: Vec<String>,
     /// The model's name in the file that writes it out, or the string that names a built-in profile.
     pub span: Span,
+    /// Where the file writes each coefficient, by path (`terms[2].variance_mm2`); empty for a built-in profile.
+    pub coefficient_spans: BTreeMap<String, Span>,
 }
 
 /// A set of materials that compiles to one kernel module.

@@ -8,7 +8,7 @@ use naga::{
     ShaderStage, Type, TypeInner,
 };
 
-use crate::layout::doc_lines;
+use crate::docs::Docs;
 
 /// Everything that bindings and the manifest are written from.
 #[derive(Debug)]
@@ -93,13 +93,16 @@ pub(crate) struct VertexInput {
 /// A resource for which no typed binding can be written.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("no typed binding can be written for {name}: {reason}")]
-pub struct UnsupportedBinding {
+pub(crate) struct UnsupportedBinding {
     name: String,
     reason: &'static str,
 }
 
-pub(crate) fn reflect(module: &Module, info: &ModuleInfo) -> Result<Reflection, UnsupportedBinding> {
-    let docs = module.doc_comments.as_deref();
+pub(crate) fn reflect(
+    module: &Module,
+    info: &ModuleInfo,
+    docs: &Docs,
+) -> Result<Reflection, UnsupportedBinding> {
     let mut groups: BTreeMap<u32, BTreeMap<u32, Bound>> = BTreeMap::new();
     let mut structures = Vec::new();
     for (handle, global) in module.global_variables.iter() {
@@ -107,10 +110,7 @@ pub(crate) fn reflect(module: &Module, info: &ModuleInfo) -> Result<Reflection, 
         let stages = stages(module, info, handle);
         let bound = Bound {
             name: global.name.clone().unwrap_or_default(),
-            docs: docs
-                .and_then(|docs| docs.global_variables.get(&handle))
-                .map(|d| doc_lines(d))
-                .unwrap_or_default(),
+            docs: docs.of(global.name.as_deref().unwrap_or_default()),
             stages,
             resource: resource(module, info, handle, global)?,
         };
@@ -119,13 +119,13 @@ pub(crate) fn reflect(module: &Module, info: &ModuleInfo) -> Result<Reflection, 
         }
         groups.entry(place.group).or_default().insert(place.binding, bound);
     }
-    let entry_points = module.entry_points.iter().enumerate().map(|(index, entry)| EntryPoint {
+    let entry_points = module.entry_points.iter().map(|entry| EntryPoint {
         name: entry.name.clone(),
         stage: entry.stage,
-        docs: docs.and_then(|docs| docs.entry_points.get(&index)).map(|d| doc_lines(d)).unwrap_or_default(),
+        docs: docs.of(&entry.name),
     });
     let entry_points = entry_points.collect();
-    Ok(Reflection { entry_points, groups, structures, vertex_inputs: vertex_inputs(module) })
+    Ok(Reflection { entry_points, groups, structures, vertex_inputs: vertex_inputs(module, docs) })
 }
 
 fn stages(module: &Module, info: &ModuleInfo, global: Handle<GlobalVariable>) -> BTreeSet<Stage> {
@@ -232,31 +232,24 @@ fn collect_structures(module: &Module, ty: Handle<Type>, found: &mut Vec<Handle<
     }
 }
 
-fn vertex_inputs(module: &Module) -> Vec<VertexInput> {
+fn vertex_inputs(module: &Module, docs: &Docs) -> Vec<VertexInput> {
     let mut inputs: Vec<VertexInput> = Vec::new();
     let vertex = module.entry_points.iter().filter(|entry| entry.stage == ShaderStage::Vertex);
     for argument in vertex.flat_map(|entry| &entry.function.arguments) {
         let ty = &module.types[argument.ty];
         let (TypeInner::Struct { members, .. }, Some(name)) = (&ty.inner, &ty.name) else { continue };
-        let docs = module.doc_comments.as_deref();
-        let attributes = members.iter().enumerate().filter_map(|(index, member)| {
+        let attributes = members.iter().filter_map(|member| {
             let Some(Binding::Location { location, .. }) = member.binding else { return None };
             let components = match module.types[member.ty].inner {
                 TypeInner::Scalar(naga::Scalar::F32) => 1,
                 TypeInner::Vector { size, scalar: naga::Scalar::F32 } => size as usize,
                 _ => return None,
             };
-            let lines = docs.and_then(|docs| docs.struct_members.get(&(argument.ty, index)));
-            Some((
-                member.name.clone()?,
-                lines.map(|l| doc_lines(l)).unwrap_or_default(),
-                location,
-                components,
-            ))
+            let member = member.name.clone()?;
+            Some((member.clone(), docs.of_member(name, &member), location, components))
         });
         let attributes = attributes.collect();
-        let docs =
-            docs.and_then(|docs| docs.types.get(&argument.ty)).map(|d| doc_lines(d)).unwrap_or_default();
+        let docs = docs.of(name);
         if inputs.iter().all(|input| input.name != *name) {
             inputs.push(VertexInput { name: name.clone(), docs, attributes });
         }

@@ -322,6 +322,7 @@ impl Resolution {
                     model: inline.model.clone(),
                     docs: Vec::new(),
                     span: inline.head.clone(),
+                    coefficient_spans: inline.coefficients.clone(),
                 };
                 return Some((profile, None));
             }
@@ -335,8 +336,13 @@ impl Resolution {
         match chain.end {
             ChainEnd::Model(profile) => Some((*profile, Some(span))),
             ChainEnd::Published(stem, model) => {
-                let profile =
-                    ResolvedProfile { stem: Some(stem), model, docs: Vec::new(), span: span.clone() };
+                let profile = ResolvedProfile {
+                    stem: Some(stem),
+                    model,
+                    docs: Vec::new(),
+                    span: span.clone(),
+                    coefficient_spans: Default::default(),
+                };
                 Some((profile, None))
             }
             ChainEnd::Unknown if chain.files.is_empty() => {
@@ -490,6 +496,7 @@ pub(crate) fn chain(files: &Files, name: &str) -> Chain {
                     model: inline.model.clone(),
                     docs: file.docs.clone(),
                     span: inline.head.clone(),
+                    coefficient_spans: inline.coefficients.clone(),
                 }));
             }
         }

@@ -3,7 +3,7 @@
 use naga::front::wgsl::{Frontend, Options};
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 
-use crate::compose::Linked;
+use crate::compose::{GLUE, Linked};
 use crate::diagnostics::{Diagnostic, Report};
 use crate::source::Span;
 
@@ -21,7 +21,7 @@ pub(crate) struct Validated {
 ///
 /// `displayed` is the name under which the WGSL stands in an error message.
 pub(crate) fn validate(linked: &Linked, displayed: &str, report: &mut Report) -> Option<Validated> {
-    let options = Options { parse_doc_comments: true, capabilities: WEBGPU };
+    let options = Options { parse_doc_comments: false, capabilities: WEBGPU };
     let module = match Frontend::new_with_options(options).parse(&linked.text) {
         Ok(module) => module,
         Err(error) => {
@@ -69,8 +69,14 @@ fn push(
             .label(origin.clone(), "this became the WGSL below")
             .help("change this value; the WGSL is generated from it");
     } else {
-        diagnostic =
-            diagnostic.help("no material file is to blame: please report this as a defect of the compiler");
+        // A module of the house is named by folder and file; others are the caller's own passes.
+        let module = labels.first().and_then(|(range, _)| linked.module_at(range.start));
+        let own = module
+            .filter(|name| ["lib/", "profiles/", "kernels/", "passes/"].iter().all(|h| !name.starts_with(h)));
+        diagnostic = diagnostic.help(match own.filter(|name| *name != GLUE) {
+            Some(pass) => format!("the error is in the pass `{pass}`, which the caller of the compiler gave"),
+            None => "no material file is to blame: please report this as a defect of the compiler".to_owned(),
+        });
     }
     for (range, label) in labels {
         let span = Span::new(file, range);

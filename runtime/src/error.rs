@@ -1,4 +1,4 @@
-//! Sizes that cannot be rendered.
+//! Frames that cannot be rendered.
 
 use crate::target::Extent;
 
@@ -7,7 +7,7 @@ use crate::target::Extent;
 #[non_exhaustive]
 pub enum SizeError {
     /// Width or height is 0.
-    #[error("a frame of {width}×{height} pixels has no pixel: width and height start at 1")]
+    #[error("a frame of {width}×{height} pixels has no pixel: give at least 1×1")]
     Zero {
         /// Width in pixels.
         width: u32,
@@ -15,7 +15,9 @@ pub enum SizeError {
         height: u32,
     },
     /// Width or height is beyond what the device offers.
-    #[error("a frame of {width}×{height} pixels is beyond this device's limit of {limit} per side")]
+    #[error(
+        "a frame of {width}×{height} pixels is beyond this device's limit: give at most {limit} per side"
+    )]
     BeyondLimit {
         /// Width in pixels.
         width: u32,
@@ -24,6 +26,23 @@ pub enum SizeError {
         /// Largest side of a 2-D texture on the device.
         limit: u32,
     },
+}
+
+/// Why a pass cannot take its inputs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ResizeError {
+    /// The size.
+    #[error(transparent)]
+    Size(#[from] SizeError),
+    /// The pass was made for a stencil, but the inputs have none.
+    #[error("the pass was made for a stencil: give `depth_stencil`, or make the pass with `stencil: None`")]
+    StencilMissing,
+    /// The inputs have a stencil, but the pass was made without.
+    #[error(
+        "the pass was made without a stencil: leave `depth_stencil` out, or make the pass with its format"
+    )]
+    StencilUnexpected,
 }
 
 /// Checks `size` against the device.

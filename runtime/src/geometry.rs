@@ -4,6 +4,8 @@ use wgpu::util::DeviceExt as _;
 
 use crate::Vertex;
 use crate::bindings::kernel::{BindGroup3, GBufferObject};
+use crate::error::{SizeError, check_size};
+use crate::target::Extent;
 
 /// Vertices and indices of one mesh.
 #[derive(Clone, Debug)]
@@ -52,19 +54,54 @@ pub struct TexturePixels<'a> {
     pub rgba: &'a [u8],
 }
 
+/// Pixels that make no texture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum TextureError {
+    /// The number of bytes does not fit the size.
+    #[error("a texture of {width}×{height} pixels takes {expected} bytes of RGBA, not {found}")]
+    Length {
+        /// Width in pixels.
+        width: u32,
+        /// Height in pixels.
+        height: u32,
+        /// Bytes that it takes.
+        expected: u64,
+        /// Bytes given.
+        found: u64,
+    },
+    /// Width or height is 0 or beyond what the device offers.
+    #[error(transparent)]
+    Size(#[from] SizeError),
+}
+
+impl TexturePixels<'_> {
+    fn check(&self, device: &wgpu::Device) -> Result<(), TextureError> {
+        let Self { width, height, rgba } = *self;
+        check_size(device, Extent::new(width, height))?;
+        let (expected, found) = (4 * u64::from(width) * u64::from(height), rgba.len() as u64);
+        if expected == found { Ok(()) } else { Err(TextureError::Length { width, height, expected, found }) }
+    }
+}
+
 /// The surface of one object.
 #[derive(Clone, Copy, Debug)]
 pub struct SurfaceDescriptor<'a> {
     /// Number of the material in the kernel; `None` for an opaque object.
     pub material: Option<u32>,
-    /// Surface albedo that overrides the material's where given (sRGB). Without it the material's own holds.
+    /// Surface albedo (sRGB) that overrides the material's per pixel.
     pub surface_albedo: Option<TexturePixels<'a>>,
-    /// Factor on that texture, linear red, green, blue.
+    /// Factor on that texture, or the surface albedo itself without one; linear red, green, blue. Without a texture, 1 in
+    /// all three leaves a material's own surface albedo.
     pub surface_albedo_factor: [f32; 3],
     /// Tangent-space normals (linear, y up as glTF has it).
     pub normals: Option<TexturePixels<'a>>,
     /// Scale of the normals' x and y.
     pub normal_scale: f32,
+    /// Specular reflectance at normal incidence where there is no material, 0 to 1.
+    pub opaque_reflectance_at_normal: f32,
+    /// Roughness where there is no material, 0 to 1.
+    pub opaque_roughness: f32,
 }
 
 impl Default for SurfaceDescriptor<'_> {
@@ -75,6 +112,9 @@ impl Default for SurfaceDescriptor<'_> {
             surface_albedo_factor: [1.0; 3],
             normals: None,
             normal_scale: 1.0,
+            // Plaster: a dielectric of n = 1.5, rather rough.
+            opaque_reflectance_at_normal: 0.04,
+            opaque_roughness: 0.6,
         }
     }
 }
@@ -94,7 +134,10 @@ impl Object {
         layout: &wgpu::BindGroupLayout,
         geometry: Geometry,
         surface: &SurfaceDescriptor<'_>,
-    ) -> Self {
+    ) -> Result<Self, TextureError> {
+        for pixels in [surface.surface_albedo, surface.normals].into_iter().flatten() {
+            pixels.check(device)?;
+        }
         let white = TexturePixels { width: 1, height: 1, rgba: &[255; 4] };
         let flat = TexturePixels { width: 1, height: 1, rgba: &[128, 128, 255, 255] };
         let colour = surface.surface_albedo.unwrap_or(white);
@@ -110,12 +153,14 @@ impl Object {
             min_filter: wgpu::FilterMode::Linear,
             ..Default::default()
         });
+        let overrides = surface.surface_albedo.is_some() || surface.surface_albedo_factor != [1.0; 3];
         let uniform = GBufferObject {
             surface_albedo_factor: surface.surface_albedo_factor,
             material: surface.material.and_then(|number| i32::try_from(number).ok()).unwrap_or(-1),
             normal_scale: if surface.normals.is_some() { surface.normal_scale } else { 0.0 },
-            surface_albedo_override: if surface.surface_albedo.is_some() { 1.0 } else { 0.0 },
-            ..bytemuck::Zeroable::zeroed()
+            surface_albedo_override: if overrides { 1.0 } else { 0.0 },
+            opaque_reflectance_at_normal: surface.opaque_reflectance_at_normal,
+            opaque_roughness: surface.opaque_roughness,
         };
         let uniform = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
             label: Some("Object uniform"),
@@ -129,7 +174,7 @@ impl Object {
             surface_sampler: &sampler,
         }
         .create(device, layout, "Object bind group");
-        Self { geometry, bind_group, translucent: surface.material.is_some() }
+        Ok(Self { geometry, bind_group, translucent: surface.material.is_some() })
     }
 }
 

@@ -18,10 +18,12 @@ pub struct SubsurfaceKernel {
 #[non_exhaustive]
 pub enum KernelError {
     /// No material.
-    #[error("a kernel needs at least one material")]
+    #[error("a kernel needs at least one material: compile a set that has one")]
     NoMaterials,
     /// The table does not divide into one row per material.
-    #[error("a table of {bytes} bytes does not divide into rows for {materials} materials")]
+    #[error(
+        "a table of {bytes} bytes does not divide into rows for {materials} materials: give table and names of one compilation"
+    )]
     Table {
         /// Bytes of the table.
         bytes: usize,

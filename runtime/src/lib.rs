@@ -31,11 +31,12 @@ pub use wgpu;
 
 pub use bindings::kernel::GBufferVertex as Vertex;
 pub use camera::{Bounds, Camera};
-pub use error::SizeError;
-pub use geometry::{Geometry, Object, SurfaceDescriptor, TexturePixels};
+pub use error::{ResizeError, SizeError};
+pub use geometry::{Geometry, Object, SurfaceDescriptor, TextureError, TexturePixels};
 pub use kernel::{KernelError, SubsurfaceKernel};
 pub use light::{DirectionalLight, LIGHT_CAPACITY};
 pub use pass::composite::{CompositeInputs, CompositePass, CompositeSettings};
+pub use pass::distance::DistancePass;
 pub use pass::gbuffer::{GBufferPass, GBufferView};
 pub use pass::shadow::ShadowPass;
 pub use pass::subsurface::{SubsurfaceInputs, SubsurfacePass};

@@ -8,11 +8,14 @@ use crate::camera::{Bounds, upright};
 /// Directional lights that one frame can hold.
 pub const LIGHT_CAPACITY: usize = 4;
 
-/// Radius of the shadow filter over the diameter of the scene: half a millimetre of penumbra on a head's height.
-const SHADOW_SOFTNESS: f32 = 0.002;
+/// Radius of the shadow filter, mm: the penumbra of a large lamp behind a nose.
+const SHADOW_RADIUS_MM: f32 = 1.0;
 
-/// Radius over which thickness is averaged, over the diameter of the scene: below what a profile of skin resolves.
-const THICKNESS_SOFTNESS: f32 = 0.003;
+/// Radius over which thickness is averaged, mm: about a mean free path of skin, below what its profile resolves.
+const THICKNESS_RADIUS_MM: f32 = 1.5;
+
+/// The shaders hold as many lights.
+const _: fn(&kernel::GBufferFrame) -> &[kernel::Light; LIGHT_CAPACITY] = |frame| &frame.lights;
 
 /// A light at infinity.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,15 +53,18 @@ impl DirectionalLight {
             Mat4::from_translation(Vec3::new(0.5, 0.5, 0.0)) * Mat4::from_scale(Vec3::new(0.5, -0.5, 1.0));
         let diameter = 2.0 * bounds.radius;
         let texel = diameter / shadow_map_size as f32;
+        // A filter narrower than a texel and a half would show the map's steps.
+        let filter_radius = (SHADOW_RADIUS_MM / millimetres_per_world_unit).max(1.5 * texel);
         kernel::Light {
             shadow_from_world: (texture_from_clip * self.light_from_world(bounds)).to_cols_array_2d(),
             towards_light: self.towards().into(),
             shadow_range_mm: diameter * millimetres_per_world_unit,
             irradiance: self.irradiance,
-            shadow_filter_radius: SHADOW_SOFTNESS,
+            shadow_filter_radius: filter_radius / diameter,
             // The filter reaches past a texel's centre by its own radius on a surface seen at a slant.
-            shadow_normal_offset: 2.0 * texel + SHADOW_SOFTNESS * diameter,
-            thickness_filter_radius: THICKNESS_SOFTNESS * diameter,
+            shadow_normal_offset: 2.0 * texel + filter_radius,
+            thickness_filter_radius: THICKNESS_RADIUS_MM / millimetres_per_world_unit,
+            millimetres_per_world_unit,
             ..bytemuck::Zeroable::zeroed()
         }
     }

@@ -1,8 +1,8 @@
 //! All four passes in order.
 
 use crate::camera::{Bounds, Camera};
-use crate::error::SizeError;
-use crate::geometry::{Geometry, Object, SurfaceDescriptor};
+use crate::error::ResizeError;
+use crate::geometry::{Geometry, Object, SurfaceDescriptor, TextureError};
 use crate::kernel::SubsurfaceKernel;
 use crate::light::DirectionalLight;
 use crate::pass::composite::{CompositeInputs, CompositePass, CompositeSettings};
@@ -35,6 +35,16 @@ pub struct Frame<'a> {
     pub composite: CompositeSettings,
 }
 
+impl Frame<'_> {
+    /// How the subsurface pass sees this frame at a size of `size`.
+    pub fn subsurface_view(&self, size: Extent) -> SubsurfaceView {
+        let projection = self.camera.projection(size.width as f32 / size.height as f32, &self.bounds);
+        SubsurfaceView::from_projection(projection, size.height, self.millimetres_per_world_unit)
+            .with_taps(self.taps)
+            .with_seed(self.seed)
+    }
+}
+
 /// Shadow → G-buffer → subsurface → composite.
 #[derive(Debug)]
 pub struct Renderer {
@@ -60,13 +70,16 @@ impl Renderer {
     }
 
     /// An object to draw.
+    ///
+    /// # Errors
+    /// Textures whose bytes do not fit their size, or whose size is beyond the device's limit.
     pub fn object(
         &self,
         device: &wgpu::Device,
         queue: &wgpu::Queue,
         geometry: Geometry,
         surface: &SurfaceDescriptor<'_>,
-    ) -> Object {
+    ) -> Result<Object, TextureError> {
         self.gbuffer.object(device, queue, geometry, surface)
     }
 
@@ -74,7 +87,7 @@ impl Renderer {
     ///
     /// # Errors
     /// A size of 0 or beyond the device's limit; the old targets stay.
-    pub fn resize(&mut self, device: &wgpu::Device, size: Extent) -> Result<(), SizeError> {
+    pub fn resize(&mut self, device: &wgpu::Device, size: Extent) -> Result<(), ResizeError> {
         if self.size == Some(size) {
             return Ok(());
         }
@@ -110,9 +123,7 @@ impl Renderer {
                 millimetres_per_world_unit: frame.millimetres_per_world_unit,
             },
         );
-        let projection = frame.camera.projection(size.width as f32 / size.height as f32, &frame.bounds);
-        let view = SubsurfaceView::from_projection(projection, size.height, frame.millimetres_per_world_unit);
-        self.subsurface.prepare(queue, &view.with_taps(frame.taps).with_seed(frame.seed));
+        self.subsurface.prepare(queue, &frame.subsurface_view(size));
         self.composite.prepare(queue, &frame.composite);
     }
 

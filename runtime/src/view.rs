@@ -94,6 +94,10 @@ impl SubsurfaceView {
         self.millimetres_per_pixel[0] + self.millimetres_per_pixel[1] * distance_mm
     }
 
+    pub(crate) fn distance_from_depth(&self) -> [f32; 4] {
+        self.distance_from_depth
+    }
+
     pub(crate) fn uniform(&self) -> kernel::SubsurfaceView {
         kernel::SubsurfaceView {
             distance_from_depth: self.distance_from_depth,

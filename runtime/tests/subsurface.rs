@@ -130,12 +130,15 @@ fn a_step_edge_spreads_as_the_profile_says() {
         // Bounds per tap count, as a fraction of the step. Three things add up: radii stand for whole strata of the
         // CDF (1/n), taps snap to pixels (half a pixel of the slope at the edge), and 64 rows leave an eighth of a
         // pixel's noise in the mean. Twice what was measured with the model that does worst.
-        for (taps, bound) in [(8, 0.09), (16, 0.045), (32, 0.013), (64, 0.012), (256, 0.009)] {
+        for (taps, bound) in [(8, 0.09), (16, 0.045), (32, 0.013), (64, 0.012)] {
             let (bias, noise) = edge_error(&gpu, stem, taps);
             println!("{stem}: {taps} taps: bias {bias:.4}, noise {noise:.4}");
             assert!(bias < bound, "{stem}, {taps} taps: {bias}");
         }
     }
+    // More taps go on converging; one model stands for all, since the estimator is the same.
+    let (bias, _) = edge_error(&gpu, "exponential_dipole_searchlight", 256);
+    assert!(bias < 0.009, "256 taps: {bias}");
 }
 
 #[test]
@@ -191,32 +194,53 @@ fn hostile_buffers_give_finite_pixels() {
     let gpu = Gpu::open();
     let strange = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, -5.0, 0.0, 1.0, 3.0e38];
     let pick = |x: u32, y: u32, salt: u32| strange[((x * 7 + y * 13 + salt) % 11).min(6) as usize];
-    for size in [[1, 1], [7, 3], [64, 64]] {
-        for millimetres_per_pixel in [1e-4, 0.25, 1e4] {
-            let view = SubsurfaceView::orthographic_distances(millimetres_per_pixel).with_taps(16);
-            let irradiance = |x, y| [pick(x, y, 0), pick(x, y, 1), 1.0];
-            let surface = |x, y| {
-                [pick(x, y, 2), 0.5, 0.5, [0.0, 0.0, 0.0, f32::NAN, 7.0, -1.0][((x + y) % 6) as usize]]
-            };
-            let depth = |x: u32, y: u32| {
-                [500.0, 500.0, 0.0, f32::NAN, f32::INFINITY, -3.0][((x * 3 + y) % 6) as usize]
-            };
-            let picture = diffuse_sized(&gpu, "burley_searchlight", &view, size, irradiance, surface, depth);
-            for (index, pixel) in picture.iter().enumerate() {
-                let (x, y) = (index as u32 % size[0], index as u32 / size[0]);
-                let number = surface(x, y)[3];
-                let translucent = number == 0.0 && depth(x, y) == 500.0;
-                if translucent {
-                    assert!(pixel[..3].iter().all(|v| v.is_finite() && *v >= 0.0), "({x}, {y}): {pixel:?}");
-                } else {
-                    let own = irradiance(x, y);
-                    let same = (0..3).all(|c| {
-                        pixel[c].to_bits() == own[c].to_bits() || (pixel[c].is_nan() && own[c].is_nan())
-                    });
-                    assert!(same, "({x}, {y}): {pixel:?} is not {own:?}");
-                }
+    let irradiance = |x, y| [pick(x, y, 0), pick(x, y, 1), 1.0];
+    let numbers = [0.0, 0.0, 0.0, f32::NAN, 7.0, -1.0];
+    let surface = |x, y| [pick(x, y, 2), 0.5, 0.5, numbers[((x + y) % 6) as usize]];
+    // 1e30: what some renderers write for "very far".
+    let depths = [500.0, 500.0, 0.0, f32::NAN, f32::INFINITY, -3.0, 1e30];
+    let depth = |x: u32, y: u32| depths[((x * 3 + y) % 7) as usize];
+    let check = |stem: &str, size: [u32; 2], millimetres_per_pixel: f32| {
+        let view = SubsurfaceView::orthographic_distances(millimetres_per_pixel).with_taps(16);
+        let picture = diffuse_sized(&gpu, stem, &view, size, irradiance, surface, depth);
+        for (index, pixel) in picture.iter().enumerate() {
+            let (x, y) = (index as u32 % size[0], index as u32 / size[0]);
+            let translucent = surface(x, y)[3] == 0.0 && depth(x, y).is_finite() && depth(x, y) > 0.0;
+            let own = irradiance(x, y);
+            if translucent {
+                let defined = pixel[..3].iter().all(|v| v.is_finite() && *v >= 0.0);
+                assert!(defined, "{stem} {size:?} ({x}, {y}): {pixel:?}");
+            } else {
+                let same = |c: usize| {
+                    pixel[c].to_bits() == own[c].to_bits() || (pixel[c].is_nan() && own[c].is_nan())
+                };
+                assert!((0..3).all(same), "{stem} {size:?} ({x}, {y}): {pixel:?} is not {own:?}");
             }
         }
+    };
+    for stem in Model::PUBLISHED {
+        check(stem, [64, 64], 0.25);
+    }
+    for size in [[1, 1], [7, 3]] {
+        for millimetres_per_pixel in [1e-4, 1e4] {
+            check("exponential_dipole_searchlight", size, millimetres_per_pixel);
+        }
+    }
+}
+
+#[test]
+fn a_far_tap_of_finite_distance_is_no_hole() {
+    let gpu = Gpu::open();
+    // Every second column lies 1e30 mm away, on the same material: its light must neither arrive nor spoil the rest.
+    let is_far = |x: u32| x % 2 == 1;
+    let depth = |x, _| if is_far(x) { 1e30 } else { DISTANCE_MM };
+    let irradiance = |x, y| if is_far(x) { [1000.0; 3] } else { [(y % 2) as f32; 3] };
+    for stem in Model::PUBLISHED {
+        let view = SubsurfaceView::orthographic_distances(0.05).with_taps(64);
+        let picture = diffuse(&gpu, stem, &view, irradiance, skin, depth);
+        let middle = &picture[(SIZE[1] / 2 * SIZE[0] + SIZE[0] / 2) as usize];
+        // Stripes of 0 and 1 one pixel wide blur to one half, give or take the noise of 64 taps.
+        assert!((middle[0] - 0.5).abs() < 0.35, "{stem}: {middle:?}");
     }
 }
 
@@ -250,7 +274,7 @@ fn sizes_that_no_texture_can_have_are_refused() {
     let inputs =
         SubsurfaceInputs { irradiance: &colour, surface: &colour, depth: &depth, depth_stencil: None };
     let error = pass.resize(&gpu.device, Extent::new(0, 4), &inputs).expect_err("0 pixels wide");
-    assert_eq!(error.to_string(), "a frame of 0×4 pixels has no pixel: width and height start at 1");
+    assert_eq!(error.to_string(), "a frame of 0×4 pixels has no pixel: give at least 1×1");
     let error = pass.resize(&gpu.device, Extent::new(1 << 20, 4), &inputs).expect_err("too wide");
     assert!(error.to_string().contains("beyond this device's limit"), "{error}");
     assert!(pass.output().is_none());

@@ -6,8 +6,18 @@
 // weight per channel. Radii take the centres of equal strata of the CDF (the quantile diverges at u = 1, so strata are
 // centred); directions follow the golden angle from a start that each pixel takes from a fixed pattern.
 
-/// Irradiance above this counts as this: thousands of taps, each weighted by up to 1e4, still add up to a finite f32.
+/// Irradiance above this counts as this: 4096 taps at the largest weight still add up to a finite f32.
 const LARGEST_IRRADIANCE: f32 = 1e30;
+
+/// Largest weight of a tap. A narrow channel's density over the widest one's grows as the ratio of their lengths at
+/// small radii; a ratio of 1e4 and more belongs to materials whose narrow channel does not leave the pixel anyway.
+const LARGEST_WEIGHT: f32 = 1e4;
+
+/// A depth difference above this counts as this: its square and cube stay finite, and every profile is 0 there.
+const LARGEST_DEPTH_DIFFERENCE_MM: f32 = 1e9;
+
+/// A channel whose weights add up to less than this has lost every tap.
+const SMALLEST_WEIGHT: f32 = 1e-20;
 
 /// Irradiance at `pixel` after it has diffused under the surface.
 ///
@@ -22,12 +32,11 @@ fn gather_importance_sampled(
     pixel: vec2i,
     material: i32,
     profiles: ChannelProfiles,
-    widest_channel: u32,
     distance_mm: f32,
 ) -> vec3f {
     let size = vec2i(textureDimensions(irradiance));
     let millimetres_per_pixel = view.millimetres_per_pixel.x + view.millimetres_per_pixel.y * distance_mm;
-    let sampled = channel_profile(profiles, widest_channel);
+    let sampled = channel_profile(profiles, widest_channel(profiles));
     let turn = TAU * interleaved_gradient_noise(pixel, view.seed);
 
     var weighted = vec3f(0.0);
@@ -52,9 +61,10 @@ fn gather_importance_sampled(
         if tap_distance_mm == 0.0 || !is_finite_rgb(tap_irradiance) {
             continue;
         }
-        let depth_difference_mm = tap_distance_mm - distance_mm;
+        let depth_difference_mm = min(abs(tap_distance_mm - distance_mm), LARGEST_DEPTH_DIFFERENCE_MM);
         let path_mm = sqrt(radius_mm * radius_mm + depth_difference_mm * depth_difference_mm);
-        let weight = channel_area_pdf(profiles, path_mm) / profile_area_pdf(sampled, radius_mm);
+        let ratio = channel_area_pdf(profiles, path_mm) / profile_area_pdf(sampled, radius_mm);
+        let weight = min(ratio, vec3f(LARGEST_WEIGHT));
         weighted += weight * clamp(tap_irradiance, vec3f(0.0), vec3f(LARGEST_IRRADIANCE));
         weights += weight;
     }
@@ -62,6 +72,5 @@ fn gather_importance_sampled(
     // Channels whose every tap was rejected keep the irradiance of the pixel itself.
     let own = textureLoad(irradiance, pixel, 0).rgb;
     let kept = select(vec3f(0.0), clamp(own, vec3f(0.0), vec3f(LARGEST_IRRADIANCE)), is_finite_rgb(own));
-    let smallest_weight = 1e-20;
-    return select(kept, weighted / max(weights, vec3f(smallest_weight)), weights > vec3f(smallest_weight));
+    return select(kept, weighted / max(weights, vec3f(SMALLEST_WEIGHT)), weights > vec3f(SMALLEST_WEIGHT));
 }

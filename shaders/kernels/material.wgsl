@@ -7,8 +7,6 @@ struct MaterialSurface {
     model: u32,
     /// Surface albedo A per channel where no texture overrides it, 0 to 1.
     surface_albedo: vec3f,
-    /// Channel with the widest profile (0 red, 1 green, 2 blue): radii are drawn from it.
-    widest_channel: u32,
     /// Specular reflectance at normal incidence F₀, 0 to 1.
     reflectance_at_normal: f32,
     /// Roughness of the specular lobe (square root of the GGX α), 0 to 1.
@@ -48,6 +46,20 @@ fn channel_transmittance(profiles: ChannelProfiles, surface_albedo: vec3f, thick
         profile_radial_cdf(profiles.blue, thickness_mm),
     );
     return surface_albedo * (vec3f(1.0) - inside);
+}
+
+/// Quantile by which profiles are compared in width: far enough out to see the tail that needs the radii.
+const WIDTH_QUANTILE: f32 = 0.9;
+
+/// Number of the channel with the widest profile at this pixel: radii are drawn from it.
+fn widest_channel(profiles: ChannelProfiles) -> u32 {
+    let red = profile_sample_radius(profiles.red, WIDTH_QUANTILE);
+    let green = profile_sample_radius(profiles.green, WIDTH_QUANTILE);
+    let blue = profile_sample_radius(profiles.blue, WIDTH_QUANTILE);
+    if red >= green && red >= blue {
+        return 0u;
+    }
+    return select(2u, 1u, green >= blue);
 }
 
 /// The profile of one channel, by its number.

@@ -22,7 +22,7 @@ fn log_one_plus(x: f32) -> f32 {
 
 /// −ln(1 − u) for u in [0, 1), accurate for small u; u = 1 is taken for the largest f32 below 1.
 fn negative_log_complement(u: f32) -> f32 {
-    let below_one = min(u, 0.99999994);
+    let below_one = min(u, LARGEST_BELOW_ONE);
     // −ln(1 − u) = ln(1 + u / (1 − u)), which keeps the digits of a small u.
     return log_one_plus(below_one / (1.0 - below_one));
 }

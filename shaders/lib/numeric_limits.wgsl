@@ -1,4 +1,11 @@
-/// Smallest radius (mm) at which a per-area density is evaluated: R(r) of several models diverges at r = 0.
+/// Largest finite half float.
+const LARGEST_HALF: f32 = 65504.0;
+
+/// Largest f32 below 1: the last u that a quantile takes.
+const LARGEST_BELOW_ONE: f32 = 0.99999994;
+
+/// Smallest radius (mm) at which a per-area density is evaluated: R(r) of several models diverges at r = 0. A picometre
+/// is below every sampled radius, and its reciprocal times any 2πrR stays finite.
 const SMALLEST_RADIUS_MM: f32 = 1e-9;
 
 /// True for every value but NaN and ±infinity.

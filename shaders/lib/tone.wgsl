@@ -2,7 +2,9 @@
 ///
 /// Below a peak of 0.8 − offset nothing changes but the removal of the 4 % specular floor; above it the peak is
 /// compressed towards 1 and the colour slides to white.
-fn tone_map_neutral(radiance: vec3f) -> vec3f {
+fn tone_map_neutral(unbounded: vec3f) -> vec3f {
+    // Several highlights may add up past the half floats they came in; infinity over infinity is no colour.
+    let radiance = min(unbounded, vec3f(LARGEST_HALF));
     let start_compression = 0.8 - 0.04;
     let desaturation = 0.15;
     let smallest = min(radiance.r, min(radiance.g, radiance.b));

@@ -17,6 +17,8 @@ struct Light {
     shadow_normal_offset: f32,
     /// World-space radius over which the thickness is averaged.
     thickness_filter_radius: f32,
+    /// Millimetres that a world unit has.
+    millimetres_per_world_unit: f32,
 }
 
 /// Camera and lights of one frame.
@@ -25,15 +27,17 @@ struct GBufferFrame {
     clip_from_world: mat4x4f,
     /// Position of the camera in world space.
     camera_position: vec3f,
+    /// Lights in use, at most LIGHT_CAPACITY.
     light_count: u32,
     /// Irradiance that comes from everywhere alike, red, green, blue.
     ambient_irradiance: vec3f,
     /// Factor on every material's transmission: 1, or 0 for none.
     transmission: f32,
-    lights: array<Light, 4>,
+    /// The first `light_count` of them shine.
+    lights: array<Light, LIGHT_CAPACITY>,
 }
 
-/// What one object adds to its material.
+/// What one object adds to its material, or has instead of one.
 struct GBufferObject {
     /// Factor on the surface albedo texture.
     surface_albedo_factor: vec3f,
@@ -41,8 +45,12 @@ struct GBufferObject {
     material: i32,
     /// Scale of the normal map's x and y; 0 without a normal map.
     normal_scale: f32,
-    /// 1: the texture overrides the material's surface albedo; 0: the material's holds.
+    /// 1: texture and factor override the material's surface albedo; 0: the material's holds.
     surface_albedo_override: f32,
+    /// Specular reflectance at normal incidence of an opaque object.
+    opaque_reflectance_at_normal: f32,
+    /// Roughness of an opaque object.
+    opaque_roughness: f32,
 }
 
 @group(2) @binding(0) var<uniform> frame: GBufferFrame;
@@ -90,24 +98,28 @@ fn gbuffer_vertex(vertex: GBufferVertex) -> GBufferInterpolated {
 
 /// Normal of the normal map in world space, with the tangent frame from screen-space derivatives
 /// (Schüler 2006, "Normal Mapping without Precomputed Tangents", ShaderX5).
+///
+/// `texel` holds the map's value in [0, 1], x towards increasing u and y towards decreasing v as in glTF.
 fn mapped_normal(normal: vec3f, world_position: vec3f, texture_coordinate: vec2f, texel: vec3f, scale: f32) -> vec3f {
     let position_dx = dpdx(world_position);
     let position_dy = dpdy(world_position);
     let coordinate_dx = dpdx(texture_coordinate);
     let coordinate_dy = dpdy(texture_coordinate);
-    let perpendicular_dy = cross(position_dy, normal);
-    let perpendicular_dx = cross(normal, position_dx);
-    let tangent = perpendicular_dy * coordinate_dx.x + perpendicular_dx * coordinate_dy.x;
-    // glTF's v runs down, so its bitangent points against v.
-    let bitangent = perpendicular_dy * coordinate_dx.y + perpendicular_dx * coordinate_dy.y;
+    // The paper's screen has y up; here it runs down, and a back face mirrors it once more. The sign says which.
+    let orientation = sign(dot(cross(position_dx, position_dy), normal));
+    let across_dy = orientation * cross(position_dy, normal);
+    let across_dx = orientation * cross(normal, position_dx);
+    let tangent = across_dy * coordinate_dx.x + across_dx * coordinate_dy.x;
+    let bitangent = -(across_dy * coordinate_dx.y + across_dx * coordinate_dy.y);
     let longest = max(dot(tangent, tangent), dot(bitangent, bitangent));
+    // Squared metres of texture space per pixel: nothing this small is a frame, only a mesh without coordinates.
     if longest < 1e-30 {
-        return normal; // no texture coordinates, or a texel seen edge-on
+        return normal;
     }
     let slope = (2.0 * texel.xy - 1.0) * scale;
-    let height = 2.0 * texel.z - 1.0;
-    let bent = (tangent * slope.x + bitangent * slope.y) * inverseSqrt(longest) + normal * max(height, 0.05);
-    return normalize(bent);
+    // A map that points below the surface would turn the normal inside out.
+    let height = max(2.0 * texel.z - 1.0, 0.05);
+    return normalize((tangent * slope.x + bitangent * slope.y) * inverseSqrt(longest) + normal * height);
 }
 
 /// Light that comes through from the far side: E(−n·l) A (1 − cdf(thickness)), the thickness measured in the shadow map
@@ -125,6 +137,8 @@ fn transmitted_irradiance(
         return vec3f(0.0);
     }
     let inside = world_position - light.shadow_normal_offset * normal;
+    // Moving in shortens the way to the light, which is to be given back.
+    let moved_in_mm = light.shadow_normal_offset * facing_away * light.millimetres_per_world_unit;
     let across = normalize(cross(light.towards_light, select(vec3f(0.0, 1.0, 0.0), vec3f(1.0, 0.0, 0.0), abs(light.towards_light.y) > 0.9)));
     let along = cross(light.towards_light, across);
     var through = vec3f(0.0);
@@ -133,7 +147,10 @@ fn transmitted_irradiance(
         let offset = light.thickness_filter_radius * vogel_disc(tap, SHADOW_TAPS);
         let point = light.shadow_from_world * vec4f(inside + offset.x * across + offset.y * along, 1.0);
         let nearest = nearest_to_light(shadow_maps, point.xy, layer);
-        let thickness_mm = max(point.z - nearest, 0.0) * light.shadow_range_mm;
+        if nearest >= 1.0 {
+            continue; // the map saw nothing here: what was not measured does not glow
+        }
+        let thickness_mm = max(point.z - nearest, 0.0) * light.shadow_range_mm + moved_in_mm;
         through += channel_transmittance(profiles, surface_albedo, thickness_mm);
     }
     return light.irradiance * facing_away * through / f32(SHADOW_TAPS);
@@ -154,43 +171,44 @@ fn gbuffer_fragment(interpolated: GBufferInterpolated, @builtin(front_facing) fr
     let normal = select(smooth_normal, bent_normal, object.normal_scale > 0.0);
     let towards_camera = normalize(frame.camera_position - interpolated.world_position);
 
-    let material_count = MATERIAL_COUNT;
-    let translucent = object.material >= 0 && u32(object.material) < material_count;
-    let row = material_table[u32(clamp(object.material, 0, i32(material_count) - 1))];
+    let translucent = material_number(f32(object.material), MATERIAL_COUNT) != NO_MATERIAL;
+    let row = material_table[select(0, object.material, translucent)];
     let textured = texel.rgb * object.surface_albedo_factor;
-    let surface_albedo = mix(row.surface.surface_albedo, textured, object.surface_albedo_override);
+    let override_albedo = select(1.0, object.surface_albedo_override, translucent);
+    let surface_albedo = mix(row.surface.surface_albedo, textured, override_albedo);
+    let reflectance = select(object.opaque_reflectance_at_normal, row.surface.reflectance_at_normal, translucent);
+    let roughness = select(object.opaque_roughness, row.surface.roughness, translucent);
     let profiles = material_profiles(row, surface_albedo);
+    let transmission = frame.transmission * select(0.0, row.surface.transmission_strength, translucent);
 
-    var irradiance = frame.ambient_irradiance;
+    // From everywhere alike: what the specular lobe takes on average stays outside.
+    var irradiance = frame.ambient_irradiance * (1.0 - fresnel_schlick_mean(reflectance));
     var unscattered = vec3f(0.0);
     for (var i = 0u; i < min(frame.light_count, LIGHT_CAPACITY); i += 1u) {
         let light = frame.lights[i];
         let lifted = interpolated.world_position + light.shadow_normal_offset * smooth_normal;
         let coordinate = (light.shadow_from_world * vec4f(lifted, 1.0)).xyz;
         let visibility = shadow_visibility(shadow_maps, shadow_comparison, coordinate, i, light.shadow_filter_radius);
-        // A bent normal must not light a point whose true surface faces away.
-        let facing = clamp(dot(smooth_normal, light.towards_light) * 8.0, 0.0, 1.0);
-        let cosine = max(dot(normal, light.towards_light), 0.0) * facing;
-        let arriving = light.irradiance * visibility;
+        // A bent normal must not light a point whose true surface faces away: fade out over the last 7 degrees, where
+        // bent and true normals may disagree. Without a normal map they never do.
+        let true_cosine = dot(smooth_normal, light.towards_light);
+        let facing = select(1.0, clamp(true_cosine * 8.0, 0.0, 1.0), object.normal_scale > 0.0);
+        let cosine = max(dot(normal, light.towards_light), 0.0);
+        let arriving = light.irradiance * visibility * facing;
         // What the surface reflects specularly does not enter: Lambert · (1 − F).
-        irradiance += arriving * cosine * (1.0 - fresnel_schlick(row.surface.reflectance_at_normal, cosine));
-        unscattered += arriving * facing * specular_reflection(
-            normal,
-            light.towards_light,
-            towards_camera,
-            row.surface.reflectance_at_normal,
-            row.surface.roughness,
-        );
-        let transmission = frame.transmission * row.surface.transmission_strength;
-        if translucent && transmission > 0.0 {
+        irradiance += arriving * cosine * (1.0 - fresnel_schlick(reflectance, cosine));
+        unscattered +=
+            arriving * specular_reflection(normal, light.towards_light, towards_camera, reflectance, roughness);
+        if transmission > 0.0 {
             let through = transmitted_irradiance(light, i, interpolated.world_position, smooth_normal, profiles, surface_albedo);
             unscattered += transmission * through / PI;
         }
     }
 
     var targets: GBufferTargets;
-    targets.irradiance = vec4f(irradiance, 1.0);
-    targets.unscattered = vec4f(unscattered, 1.0);
+    // The targets hold half floats: a mirror's highlight must end at their largest value, not at infinity.
+    targets.irradiance = vec4f(min(irradiance, vec3f(LARGEST_HALF)), 1.0);
+    targets.unscattered = vec4f(min(unscattered, vec3f(LARGEST_HALF)), 1.0);
     targets.surface = vec4f(surface_albedo, select(-1.0, f32(object.material), translucent));
     return targets;
 }

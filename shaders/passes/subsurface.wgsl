@@ -54,7 +54,6 @@ fn subsurface_fragment(@builtin(position) position: vec4f) -> @location(0) vec4f
         pixel,
         material,
         material_profiles(row, surface_albedo),
-        row.surface.widest_channel,
         distance_mm,
     );
     return vec4f(diffused, own.a);

@@ -42,7 +42,7 @@ fn burley_radial_cdf(profile: vec4f, radius_mm: f32) -> f32 {
 /// With y = e^(−r/3d) the CDF reads y³ + 3y = 4(1 − u), whose real root is y = G − 1/G,
 /// G³ = 2(1 − u) + √(1 + 4(1 − u)²). Written as 4(1 − u) / (G² + 1 + G⁻²) it does not cancel as u → 1.
 fn burley_sample_radius(profile: vec4f, u: f32) -> f32 {
-    let rest = 1.0 - min(u, 0.99999994);
+    let rest = 1.0 - min(u, LARGEST_BELOW_ONE);
     let g = pow(2.0 * rest + sqrt(1.0 + 4.0 * rest * rest), 1.0 / 3.0);
     let y = 4.0 * rest / (g * g + 1.0 + 1.0 / (g * g));
     return max(-3.0 * profile.x * log(y), 0.0);

@@ -1,7 +1,7 @@
 // Polynomial profile: r R(r) = (a r + b) / (r + c) for r < r_max = −b/a, else 0.
 // [L23] Liang et al. 2023. r_max is printed there as −a/b; only −b/a is a length.
 
-/// Coefficients of [L23] eq. (11)–(13) in the single-scattering albedo α, for a mean free path of 1.
+/// Coefficients of [L23] eq. (11)–(15) in the single-scattering albedo α, for a mean free path of 1.
 struct PolynomialModel {
     /// a(α) = linear·α + amplitude·10^(decades·(α − 1))
     a_linear: f32,

@@ -55,9 +55,4 @@ pub const KERNELS: &[Module] =
 
 /// Passes with their bindings and entry points.
 pub const PASSES: &[Module] =
-    modules!["passes/composite", "passes/gbuffer", "passes/shadow", "passes/subsurface"];
-
-/// The pass of the given name, such as `passes/shadow`.
-pub fn pass(name: &str) -> Option<&'static Module> {
-    PASSES.iter().find(|module| module.name == name)
-}
+    modules!["passes/composite", "passes/distance", "passes/gbuffer", "passes/shadow", "passes/subsurface"];

@@ -4,8 +4,8 @@ use super::number;
 use crate::failure::{Failure, warning};
 use crate::progress::Spinner;
 use crate::scene::camera::{Camera, DEFAULT_FOV_Y_DEGREES, Light, Size, Triple};
-use crate::scene::{Scene, bust, gltf};
-use clap::Args;
+use crate::scene::{Scene, bust, gltf, texture_orientation};
+use clap::{Args, ValueEnum};
 use glam::Vec3;
 use std::path::PathBuf;
 
@@ -15,9 +15,32 @@ pub struct MeshArguments {
     /// glTF file, binary or text, in metres; by default the procedural bust.
     #[arg(long, value_name = "FILE.glb")]
     pub mesh: Option<PathBuf>,
-    /// Turn the file's textures upside down: for files that break glTF's rule that (0, 0) is the upper left.
-    #[arg(long, requires = "mesh")]
-    pub flip_v: bool,
+    /// Whether to turn the file's textures upside down; --flip-v alone means always.
+    ///
+    /// glTF has texture coordinate (0, 0) at the image's upper left; some converters put it at the lower left.
+    #[arg(
+        long,
+        requires = "mesh",
+        value_enum,
+        value_name = "WHEN",
+        num_args = 0..=1,
+        require_equals = true,
+        default_value_t = FlipV::Auto,
+        default_missing_value = "always"
+    )]
+    pub flip_v: FlipV,
+}
+
+/// When a file's textures are turned upside down.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum FlipV {
+    /// Where the surface shows it: v rises with height, and the colours on both sides of seams match better. Says so.
+    #[default]
+    Auto,
+    /// All textures.
+    Always,
+    /// None.
+    Never,
 }
 
 /// The scene in the file, or the bust; prints warnings.
@@ -30,11 +53,17 @@ pub(super) fn load_scene(arguments: &MeshArguments) -> Result<Scene, Failure> {
     let loaded = gltf::load(path, |what| spinner.say(format!("reading {}: {what}", path.display())));
     drop(spinner);
     let mut loaded = loaded?;
-    if arguments.flip_v {
-        loaded.scene.flip_texture_v();
-    }
     for suspect in &loaded.warnings {
         eprintln!("{}\n", warning(suspect));
+    }
+    match arguments.flip_v {
+        FlipV::Auto => {
+            for turned in texture_orientation::turn_over(&mut loaded.scene, path) {
+                eprintln!("{}\n", warning(&turned));
+            }
+        }
+        FlipV::Always => loaded.scene.flip_texture_v(),
+        FlipV::Never => (),
     }
     Ok(loaded.scene)
 }

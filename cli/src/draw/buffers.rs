@@ -50,7 +50,9 @@ pub fn diffuse(
         .map_err(|error| beyond_device(&error))?;
     let view = match scale {
         PixelScale::MillimetresPerPixel(mm) => SubsurfaceView::orthographic_distances(mm),
-        PixelScale::FovYDegrees(degrees) => SubsurfaceView::perspective_distances(degrees.to_radians(), size.height),
+        PixelScale::FovYDegrees(degrees) => {
+            SubsurfaceView::perspective_distances(degrees.to_radians(), size.height)
+        }
     };
     let own_albedo = |number: u32| materials.set.materials[number as usize].surface_albedo.map(|a| a as f32);
     let surface: Vec<[f32; 4]> = buffers
@@ -66,13 +68,18 @@ pub fn diffuse(
     let irradiance: Vec<[f32; 4]> = buffers.irradiance.iter().map(|[r, g, b]| [*r, *g, *b, 1.0]).collect();
     device.checked(|| {
         let rgba32 = wgpu::TextureFormat::Rgba32Float;
-        let irradiance = upload(&device, size, rgba32, bytemuck::cast_slice(&irradiance), "diffuse irradiance");
+        let irradiance =
+            upload(&device, size, rgba32, bytemuck::cast_slice(&irradiance), "diffuse irradiance");
         let surface = upload(&device, size, rgba32, bytemuck::cast_slice(&surface), "diffuse surface");
         let r32 = wgpu::TextureFormat::R32Float;
         let depth = upload(&device, size, r32, bytemuck::cast_slice(&buffers.depth_mm), "diffuse distance");
         let mut pass = SubsurfacePass::new(&device.device, &kernel, rgba32, None);
-        let inputs =
-            SubsurfaceInputs { irradiance: &irradiance, surface: &surface, depth: &depth, depth_stencil: None };
+        let inputs = SubsurfaceInputs {
+            irradiance: &irradiance,
+            surface: &surface,
+            depth: &depth,
+            depth_stencil: None,
+        };
         pass.resize(&device.device, size, &inputs).map_err(|error| beyond_device(&error))?;
         pass.prepare(&device.queue, &view.with_taps(taps).with_seed(seed));
         let label = Some("diffuse");
@@ -83,7 +90,10 @@ pub fn diffuse(
             return Err(Failure::new("the pass has no output", "please report this as a defect"));
         };
         let texels = device.read(&output.texture)?;
-        Ok(LinearPicture { size: buffers.size, pixels: texels.into_iter().map(|[r, g, b, _]| [r, g, b]).collect() })
+        Ok(LinearPicture {
+            size: buffers.size,
+            pixels: texels.into_iter().map(|[r, g, b, _]| [r, g, b]).collect(),
+        })
     })
 }
 

@@ -46,10 +46,14 @@ impl fmt::Display for DeviceError {
 impl Explain for DeviceError {
     fn help(&self) -> Option<String> {
         Some(match self {
-            Self::NoAdapter => "install a Vulkan driver; one in software will do: on Debian and Ubuntu `apt-get install \
+            Self::NoAdapter => {
+                "install a Vulkan driver; one in software will do: on Debian and Ubuntu `apt-get install \
                                 mesa-vulkan-drivers`, in this repository `cargo xtask demo` does it"
-                .to_owned(),
-            Self::NoDevice { .. } => "update the driver, or choose another adapter with WGPU_ADAPTER_NAME".to_owned(),
+                    .to_owned()
+            }
+            Self::NoDevice { .. } => {
+                "update the driver, or choose another adapter with WGPU_ADAPTER_NAME".to_owned()
+            }
             Self::Lost { .. } => "try again with a smaller --size or fewer --taps".to_owned(),
         })
     }
@@ -81,7 +85,10 @@ impl Device {
                 ..Default::default()
             })
             .await
-            .map_err(|error| DeviceError::NoDevice { adapter: info.name.clone(), reason: error.to_string() })?;
+            .map_err(|error| DeviceError::NoDevice {
+                adapter: info.name.clone(),
+                reason: error.to_string(),
+            })?;
         Ok(Self { device, queue, adapter: info })
     }
 
@@ -109,7 +116,10 @@ impl Device {
         }
         if let Some(error) = refused {
             let message = format!("the graphics device refuses the frame: {error}");
-            return Err(Failure::new(message, "please report this as a defect, with the command and the adapter"));
+            return Err(Failure::new(
+                message,
+                "please report this as a defect, with the command and the adapter",
+            ));
         }
         result
     }
@@ -125,7 +135,9 @@ impl Device {
             // Half floats: the only other format that is read back.
             _ => bytes
                 .chunks_exact(8)
-                .map(|texel| std::array::from_fn(|c| half(u16::from_le_bytes([texel[2 * c], texel[2 * c + 1]]))))
+                .map(|texel| {
+                    std::array::from_fn(|c| half(u16::from_le_bytes([texel[2 * c], texel[2 * c + 1]])))
+                })
                 .collect(),
         })
     }
@@ -147,7 +159,11 @@ impl Device {
             texture.as_image_copy(),
             wgpu::TexelCopyBufferInfo {
                 buffer: &buffer,
-                layout: wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(padded), rows_per_image: None },
+                layout: wgpu::TexelCopyBufferLayout {
+                    offset: 0,
+                    bytes_per_row: Some(padded),
+                    rows_per_image: None,
+                },
             },
             texture.size(),
         );

@@ -28,6 +28,6 @@ fn kernel(materials: &Compilation) -> Result<SubsurfaceKernel, Failure> {
 }
 
 /// A size that the device refuses.
-fn beyond_device(error: &subsurface_runtime::SizeError) -> Failure {
+fn beyond_device(error: &impl std::error::Error) -> Failure {
     Failure::new(error.to_string(), "give a --size within the device's limit")
 }

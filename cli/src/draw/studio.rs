@@ -4,8 +4,9 @@ use std::time::{Duration, Instant};
 
 use subsurface_codegen::Compilation;
 use subsurface_runtime::{
-    self as runtime, CompositeInputs, CompositePass, CompositeSettings, DirectionalLight, Extent, GBuffer, Geometry,
-    Object, Renderer, SurfaceDescriptor, Target, TexturePixels, Vertex, wgpu,
+    self as runtime, CompositeInputs, CompositePass, CompositeSettings, DirectionalLight, DistancePass,
+    Extent, GBuffer, Geometry, Object, Renderer, SubsurfaceView, SurfaceDescriptor, Target, TexturePixels,
+    Vertex, wgpu,
 };
 
 use super::device::Device;
@@ -60,7 +61,7 @@ pub struct Drawn {
     /// Before tone mapping, linear: for EXR.
     pub linear: LinearPicture,
     /// Intermediate targets by name, if they were wanted: `irradiance`, `diffused_irradiance`, `specular_transmission`,
-    /// `surface_albedo`, `material` (−1: none).
+    /// `surface_albedo`, `material` (−1: none), `distance_mm` (along the view axis; 0: background).
     pub aovs: Vec<(String, LinearPicture)>,
     /// How long each pass took, in the order of the frame, if that was wanted; from submission until it was done.
     pub timings: Vec<(String, Duration)>,
@@ -112,9 +113,10 @@ fn draw(
     let size = Extent::new(drawn_size.width, drawn_size.height);
     renderer.resize(&device.device, size).map_err(|error| beyond_device(&error))?;
     let objects = objects(device, renderer, frame)?;
-    prepare(device, renderer, frame);
+    let view = prepare(device, renderer, frame, size);
 
-    let target = |format, label| Target::new(&device.device, size, format, label).map_err(|e| beyond_device(&e));
+    let target =
+        |format, label| Target::new(&device.device, size, format, label).map_err(|e| beyond_device(&e));
     let display = target(DISPLAY_FORMAT, "Studio display picture")?;
     let linear_target = target(LINEAR_FORMAT, "Studio linear picture")?;
     let mut timings = Vec::new();
@@ -145,12 +147,13 @@ fn draw(
         display: DisplayPicture { size: drawn_size, pixels }.shrunk(factor),
         linear: picture(device, &linear_target, drawn_size)?.shrunk(factor),
         // Depth and material numbers have no mean: these stay as they were drawn.
-        aovs: if frame.wants_aovs { aovs(device, targets, diffused, drawn_size)? } else { Vec::new() },
+        aovs: if frame.wants_aovs { aovs(device, targets, diffused, &view, drawn_size)? } else { Vec::new() },
         timings,
     })
 }
 
-fn prepare(device: &Device, renderer: &mut Renderer, frame: &Frame<'_>) {
+/// Uploads the frame; returns how the subsurface pass sees it.
+fn prepare(device: &Device, renderer: &mut Renderer, frame: &Frame<'_>, size: Extent) -> SubsurfaceView {
     let lights: Vec<DirectionalLight> = frame
         .lights
         .iter()
@@ -170,34 +173,25 @@ fn prepare(device: &Device, renderer: &mut Renderer, frame: &Frame<'_>) {
         target: frame.camera.target,
         fov_y_radians: frame.camera.fov_y_degrees.to_radians(),
     };
-    renderer.prepare(
-        &device.queue,
-        &runtime::Frame {
-            camera,
-            lights: &lights,
-            ambient_irradiance: [std::f32::consts::PI * AMBIENT_INTENSITY; 3],
-            bounds,
-            millimetres_per_world_unit: MILLIMETRES_PER_WORLD_UNIT,
-            transmission: if frame.subsurface { 1.0 } else { 0.0 },
-            taps: if frame.subsurface { frame.taps } else { 0 },
-            seed: 0,
-            composite: CompositeSettings::default(),
-        },
-    );
+    let frame = runtime::Frame {
+        camera,
+        lights: &lights,
+        ambient_irradiance: [std::f32::consts::PI * AMBIENT_INTENSITY; 3],
+        bounds,
+        millimetres_per_world_unit: MILLIMETRES_PER_WORLD_UNIT,
+        transmission: if frame.subsurface { 1.0 } else { 0.0 },
+        taps: if frame.subsurface { frame.taps } else { 0 },
+        seed: 0,
+        composite: CompositeSettings::default(),
+    };
+    renderer.prepare(&device.queue, &frame);
+    frame.subsurface_view(size)
 }
 
 fn objects(device: &Device, renderer: &Renderer, frame: &Frame<'_>) -> Result<Vec<Object>, Failure> {
-    let limit = device.device.limits().max_texture_dimension_2d;
     let mut objects = Vec::with_capacity(frame.scene.objects.len());
     for (object, &material) in frame.scene.objects.iter().zip(frame.material_of_object) {
         let surface = &object.surface;
-        for image in [&surface.base_colour, &surface.normal_map].into_iter().flatten() {
-            if image.width > limit || image.height > limit {
-                let (name, width, height) = (&object.name, image.width, image.height);
-                let message = format!("a texture of {name} has {width}×{height} pixels; this device takes {limit} per side");
-                return Err(Failure::new(message, "scale the texture down"));
-            }
-        }
         let mesh = &object.mesh;
         let vertices: Vec<Vertex> = (0..mesh.positions.len())
             .map(|index| Vertex {
@@ -214,8 +208,14 @@ fn objects(device: &Device, renderer: &Renderer, frame: &Frame<'_>) -> Result<Ve
             surface_albedo_factor: [red, green, blue],
             normals: surface.normal_map.as_ref().map(pixels),
             normal_scale: surface.normal_scale,
+            ..Default::default()
         };
-        objects.push(renderer.object(&device.device, &device.queue, geometry, &descriptor));
+        let made = renderer.object(&device.device, &device.queue, geometry, &descriptor);
+        objects.push(
+            made.map_err(|error| {
+                Failure::new(format!("{}: {error}", object.name), "scale its textures down")
+            })?,
+        );
     }
     Ok(objects)
 }
@@ -263,11 +263,18 @@ fn aovs(
     device: &Device,
     targets: &GBuffer,
     diffused: &Target,
+    view: &SubsurfaceView,
     size: Size,
 ) -> Result<Vec<(String, LinearPicture)>, Failure> {
+    let extent = Extent::new(size.width, size.height);
+    let mut distance = DistancePass::new(&device.device);
+    distance.resize(&device.device, extent, &targets.depth).map_err(|error| beyond_device(&error))?;
+    distance.prepare(&device.queue, view);
+    submit(device, |encoder| distance.encode(encoder));
     let material = device.read(&targets.surface.texture)?;
-    let material = LinearPicture { size, pixels: material.into_iter().map(|[.., number]| [number; 3]).collect() };
-    let mut aovs = Vec::with_capacity(5);
+    let material =
+        LinearPicture { size, pixels: material.into_iter().map(|[.., number]| [number; 3]).collect() };
+    let mut aovs = Vec::with_capacity(6);
     for (name, target) in [
         ("irradiance", &targets.irradiance),
         ("diffused_irradiance", diffused),
@@ -277,5 +284,8 @@ fn aovs(
         aovs.push((name.to_owned(), picture(device, target, size)?));
     }
     aovs.push(("material".to_owned(), material));
+    if let Some(target) = distance.output() {
+        aovs.push(("distance_mm".to_owned(), picture(device, target, size)?));
+    }
     Ok(aovs)
 }

@@ -55,7 +55,8 @@ fn shrunk(size: Size, pixels: &[[f32; 3]], factor: u32) -> (Size, Vec<[f32; 3]>)
         }
         sum
     };
-    let pixels = (0..small.height).flat_map(|y| (0..small.width).map(move |x| (x, y))).map(|(x, y)| mean(x, y));
+    let pixels =
+        (0..small.height).flat_map(|y| (0..small.width).map(move |x| (x, y))).map(|(x, y)| mean(x, y));
     (small, pixels.collect())
 }
 

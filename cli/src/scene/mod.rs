@@ -4,6 +4,7 @@ pub mod bust;
 pub mod camera;
 pub mod gltf;
 pub mod texture_orientation;
+mod texture_seam;
 
 /// Everything to draw.
 #[derive(Clone, Debug, Default)]

@@ -39,6 +39,8 @@ pub(crate) struct InlineModel {
     pub(crate) model: Model,
     /// The model's name.
     pub(crate) head: Span,
+    /// Where each coefficient is written, by path: `terms[2].variance_mm2`.
+    pub(crate) coefficients: BTreeMap<String, Span>,
 }
 
 const MODELS: [&str; 4] = ["Burley", "Polynomial", "GaussianSum", "ExponentialDipole"];
@@ -117,7 +119,11 @@ pub(crate) fn decode_profile(
     for error in &errors {
         decoder.report(describe(error, &name, &spans));
     }
-    errors.is_empty().then_some(ProfileExpression::Inline(InlineModel { model, head: name.span }))
+    errors.is_empty().then_some(ProfileExpression::Inline(InlineModel {
+        model,
+        head: name.span,
+        coefficients: spans,
+    }))
 }
 
 fn unknown_model(decoder: &mut Decoder, name: &Name<'_>) {

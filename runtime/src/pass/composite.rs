@@ -49,32 +49,16 @@ impl CompositePass {
             label: Some("CompositePass module"),
             source: wgpu::ShaderSource::Wgsl(WGSL.into()),
         });
-        let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label: Some("CompositePass pipeline layout"),
-            bind_group_layouts: &[Some(&layout)],
-            immediate_size: 0,
-        });
-        let pipeline = device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-            label: Some("CompositePass pipeline"),
-            layout: Some(&pipeline_layout),
-            vertex: wgpu::VertexState {
-                module: &module,
-                entry_point: Some(ENTRY_COMPOSITE_VERTEX),
-                compilation_options: Default::default(),
-                buffers: &[],
-            },
-            primitive: wgpu::PrimitiveState::default(),
-            depth_stencil: None,
-            multisample: Default::default(),
-            fragment: Some(wgpu::FragmentState {
-                module: &module,
-                entry_point: Some(ENTRY_COMPOSITE_FRAGMENT),
-                compilation_options: Default::default(),
-                targets: &[Some(format.into())],
-            }),
-            multiview_mask: None,
-            cache: None,
-        });
+        let entries = (ENTRY_COMPOSITE_VERTEX, ENTRY_COMPOSITE_FRAGMENT);
+        let pipeline = super::covering_pipeline(
+            device,
+            "CompositePass pipeline",
+            &module,
+            entries,
+            &[Some(&layout)],
+            format,
+            None,
+        );
         let uniform = device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("CompositePass settings"),
             size: size_of::<composite::CompositeSettings>() as u64,
@@ -115,15 +99,7 @@ impl CompositePass {
         let Some(bind_group) = &self.bind_group else { return };
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("CompositePass"),
-            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                view: output,
-                depth_slice: None,
-                resolve_target: None,
-                ops: wgpu::Operations {
-                    load: wgpu::LoadOp::Clear(wgpu::Color::BLACK),
-                    store: wgpu::StoreOp::Store,
-                },
-            })],
+            color_attachments: &[super::cleared(output, wgpu::Color::BLACK)],
             ..Default::default()
         });
         pass.set_pipeline(&self.pipeline);

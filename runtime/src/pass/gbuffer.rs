@@ -5,10 +5,11 @@ use crate::bindings::kernel::{
 };
 use crate::camera::{Bounds, Camera};
 use crate::error::SizeError;
-use crate::geometry::{Geometry, Object, SurfaceDescriptor};
+use crate::geometry::{Geometry, Object, SurfaceDescriptor, TextureError};
 use crate::kernel::SubsurfaceKernel;
 use crate::light::{DirectionalLight, LIGHT_CAPACITY};
 use crate::material_table::MaterialTable;
+use crate::pass::cleared;
 use crate::pass::shadow::ShadowPass;
 use crate::target::{Extent, GBuffer, TRANSLUCENT_STENCIL};
 
@@ -125,13 +126,16 @@ impl GBufferPass {
     }
 
     /// An object that this pass can draw.
+    ///
+    /// # Errors
+    /// Textures whose bytes do not fit their size, or whose size is beyond the device's limit.
     pub fn object(
         &self,
         device: &wgpu::Device,
         queue: &wgpu::Queue,
         geometry: Geometry,
         surface: &SurfaceDescriptor<'_>,
-    ) -> Object {
+    ) -> Result<Object, TextureError> {
         Object::new(device, queue, &self.object_layout, geometry, surface)
     }
 
@@ -171,21 +175,13 @@ impl GBufferPass {
     /// Records the pass; before the first [`resize`](Self::resize) there is nothing to draw into.
     pub fn encode(&self, encoder: &mut wgpu::CommandEncoder, objects: &[Object]) {
         let Some((_, targets)) = &self.targets else { return };
-        let clear = |view, colour| {
-            Some(wgpu::RenderPassColorAttachment {
-                view,
-                depth_slice: None,
-                resolve_target: None,
-                ops: wgpu::Operations { load: wgpu::LoadOp::Clear(colour), store: wgpu::StoreOp::Store },
-            })
-        };
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("GBufferPass"),
             color_attachments: &[
-                clear(&targets.irradiance.view, wgpu::Color::TRANSPARENT),
-                clear(&targets.unscattered.view, wgpu::Color::TRANSPARENT),
+                cleared(&targets.irradiance.view, wgpu::Color::TRANSPARENT),
+                cleared(&targets.unscattered.view, wgpu::Color::TRANSPARENT),
                 // −1: no material.
-                clear(&targets.surface.view, wgpu::Color { a: -1.0, ..wgpu::Color::TRANSPARENT }),
+                cleared(&targets.surface.view, wgpu::Color { a: -1.0, ..wgpu::Color::TRANSPARENT }),
             ],
             depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
                 view: &targets.depth_stencil.view,

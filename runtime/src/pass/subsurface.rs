@@ -3,7 +3,7 @@
 use crate::bindings::kernel::{
     self, BindGroup1, ENTRY_PASSTHROUGH_FRAGMENT, ENTRY_SUBSURFACE_FRAGMENT, ENTRY_SUBSURFACE_VERTEX,
 };
-use crate::error::SizeError;
+use crate::error::ResizeError;
 use crate::kernel::SubsurfaceKernel;
 use crate::material_table::MaterialTable;
 use crate::target::{Extent, TRANSLUCENT_STENCIL, Target};
@@ -34,7 +34,7 @@ pub struct SubsurfaceInputs<'a> {
 /// #     device: &wgpu::Device, queue: &wgpu::Queue, encoder: &mut wgpu::CommandEncoder, kernel: &SubsurfaceKernel,
 /// #     irradiance: &wgpu::TextureView, surface: &wgpu::TextureView, depth: &wgpu::TextureView,
 /// #     projection: [[f32; 4]; 4],
-/// # ) -> Result<(), subsurface_runtime::SizeError> {
+/// # ) -> Result<(), subsurface_runtime::ResizeError> {
 /// let mut pass = SubsurfacePass::new(device, kernel, wgpu::TextureFormat::Rgba16Float, None);
 /// let inputs = SubsurfaceInputs { irradiance, surface, depth, depth_stencil: None };
 /// pass.resize(device, Extent::new(1280, 720), &inputs)?;
@@ -76,34 +76,12 @@ impl SubsurfacePass {
     ) -> Self {
         let table = MaterialTable::new(device, kernel);
         let layout = BindGroup1::layout(device, "SubsurfacePass layout");
-        let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label: Some("SubsurfacePass pipeline layout"),
-            bind_group_layouts: &[Some(&table.layout), Some(&layout)],
-            immediate_size: 0,
-        });
         let module = kernel.shader_module(device);
         let pipeline = |label, entry_point, compare| {
-            device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-                label: Some(label),
-                layout: Some(&pipeline_layout),
-                vertex: wgpu::VertexState {
-                    module: &module,
-                    entry_point: Some(ENTRY_SUBSURFACE_VERTEX),
-                    compilation_options: Default::default(),
-                    buffers: &[],
-                },
-                primitive: wgpu::PrimitiveState::default(),
-                depth_stencil: stencil.map(|format| read_only_stencil(format, compare)),
-                multisample: Default::default(),
-                fragment: Some(wgpu::FragmentState {
-                    module: &module,
-                    entry_point: Some(entry_point),
-                    compilation_options: Default::default(),
-                    targets: &[Some(format.into())],
-                }),
-                multiview_mask: None,
-                cache: None,
-            })
+            let entries = (ENTRY_SUBSURFACE_VERTEX, entry_point);
+            let layouts = [Some(&table.layout), Some(&layout)];
+            let stencil = stencil.map(|format| read_only_stencil(format, compare));
+            super::covering_pipeline(device, label, &module, entries, &layouts, format, stencil)
         };
         let diffuse =
             pipeline("SubsurfacePass pipeline", ENTRY_SUBSURFACE_FRAGMENT, wgpu::CompareFunction::Equal);
@@ -123,13 +101,19 @@ impl SubsurfacePass {
     /// Binds the inputs and makes the output anew if `size` changed. Call it again when an input view is replaced.
     ///
     /// # Errors
-    /// A size of 0 or beyond the device's limit; the old bindings stay.
+    /// A size of 0 or beyond the device's limit; a stencil where the pass was made without, or the reverse. The old
+    /// bindings stay.
     pub fn resize(
         &mut self,
         device: &wgpu::Device,
         size: Extent,
         inputs: &SubsurfaceInputs<'_>,
-    ) -> Result<(), SizeError> {
+    ) -> Result<(), ResizeError> {
+        match (&self.passthrough, inputs.depth_stencil) {
+            (Some(_), None) => return Err(ResizeError::StencilMissing),
+            (None, Some(_)) => return Err(ResizeError::StencilUnexpected),
+            _ => {}
+        }
         let output = match self.bound.take_if(|bound| bound.size == size) {
             Some(bound) => bound.output,
             None => Target::new(device, size, self.format, "SubsurfacePass output")?,
@@ -159,15 +143,7 @@ impl SubsurfacePass {
         });
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("SubsurfacePass"),
-            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                view: &bound.output.view,
-                depth_slice: None,
-                resolve_target: None,
-                ops: wgpu::Operations {
-                    load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
-                    store: wgpu::StoreOp::Store,
-                },
-            })],
+            color_attachments: &[super::cleared(&bound.output.view, wgpu::Color::TRANSPARENT)],
             depth_stencil_attachment,
             ..Default::default()
         });
