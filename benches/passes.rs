@@ -2,6 +2,8 @@
 //!
 //! Absolute times belong to the adapter, whose name is printed; compare ratios of one run.
 
+#![allow(clippy::print_stdout, reason = "names the adapter that the times belong to")]
+
 use std::time::{Duration, Instant};
 
 use criterion::Criterion;

@@ -1,5 +1,6 @@
 //! Generates the typed bindings of the runtime's own passes.
 
+#[allow(clippy::print_stderr, reason = "Cargo shows a failed build script's standard error")]
 fn main() {
     println!("cargo::rerun-if-changed=build.rs");
     let bindings = subsurface_codegen::runtime_bindings().unwrap_or_else(|report| {

@@ -3,6 +3,7 @@
 //! None of these tests skips: without a graphics adapter they fail and name the remedy. The golden pictures are written
 //! anew by `SUBSURFACE_BLESS=1 cargo test -p subsurface-cli --test draw golden`.
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
+#![allow(clippy::print_stdout, reason = "measured values, shown with a failure, to set bounds by")]
 
 use std::fs;
 use std::path::{Path, PathBuf};

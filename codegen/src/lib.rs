@@ -1,4 +1,19 @@
 //! Compiles materials in RON to validated WGSL kernels and typed Rust bindings.
+//!
+//! The central type is [`Compiler`]: a directory of materials in, a [`Compilation`] out (WGSL, Rust, a JSON manifest and
+//! the bytes of the parameter table), or a [`Report`] with every error of every file.
+//!
+//! In a `build.rs`:
+//!
+//! ```no_run
+//! subsurface_codegen::Compiler::new("materials").build_or_exit();
+//! ```
+//!
+//! and in the crate, `include!(concat!(env!("OUT_DIR"), "/subsurface.rs"));` brings the materials as an enum, the kernel
+//! and its typed bindings. The front half (loading, checking, diagnostics) ends in a [`MaterialSet`]; the back half links
+//! the shaders that the set needs, validates them with naga and reflects them.
+//!
+//! What this crate does not know: the GPU; how light scatters (that is `subsurface-profile`'s, and the shaders').
 
 mod bindings;
 mod compiler;

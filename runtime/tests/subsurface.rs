@@ -1,5 +1,7 @@
 //! Laws of the subsurface pass on flat buffers.
 
+#![allow(clippy::print_stdout, reason = "measured figures, shown on request")]
+
 mod gpu;
 
 use gpu::{Gpu, compile, kernel};

@@ -1,5 +1,7 @@
 //! Every profile function in WGSL, evaluated on the device, against its twin in f64.
 
+#![allow(clippy::print_stdout, reason = "measured figures, shown on request")]
+
 mod gpu;
 
 use gpu::Gpu;
