@@ -58,17 +58,17 @@ const JENSEN_2001: [(&str, [f64; 3], [f64; 3]); 7] = [
 ];
 
 #[test]
-fn measured_materials_have_the_lengths_and_albedos_of_their_source() {
+fn measured_materials_have_the_lengths_and_surface_albedos_of_their_source() {
     let presets = presets();
     for (name, scattering, absorption) in JENSEN_2001 {
         let material = presets.get(name).unwrap();
         for channel in 0..3 {
             let extinction = scattering[channel] + absorption[channel];
-            let albedo = to_surface_albedo(Entry::Searchlight, scattering[channel] / extinction);
+            let surface_albedo = to_surface_albedo(Entry::Searchlight, scattering[channel] / extinction);
             // Written with four significant digits, so half a unit of the fourth: at most 5e-4 relative.
             let is_near = |a: f64, b: f64| (a - b).abs() <= 5e-4 * b;
             assert!(is_near(material.length_mm[channel], 1.0 / extinction), "{name} {channel}");
-            assert!(is_near(material.surface_albedo[channel], albedo), "{name} {channel}");
+            assert!(is_near(material.surface_albedo[channel], surface_albedo), "{name} {channel}");
         }
     }
 }

@@ -19,7 +19,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         Some(file) => gltf::load(Path::new(&file), |_| ())?.scene,
         None => bust::scene(bust::CELL_MM),
     };
-    let camera = Camera::framing(&scene.bounds, VIEW.aspect(), 24.0);
+    let camera = Camera::framing(&scene, VIEW.aspect(), 24.0);
     let mut sheet = DisplayPicture::filled(Size { width: 3 * VIEW.width, ..VIEW }, [0; 3]);
     for (index, turn) in [-35f32, 0.0, 55.0].into_iter().enumerate() {
         let offset = Vec3::from(camera.position) - Vec3::from(camera.target);

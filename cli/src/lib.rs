@@ -13,3 +13,4 @@ pub mod failure;
 pub mod picture;
 pub mod progress;
 pub mod scene;
+pub mod terminal;

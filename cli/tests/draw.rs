@@ -71,6 +71,9 @@ fn skin(profile: &str) -> String {
     format!("{before}profile: \"{profile}\"{after}")
 }
 
+/// Size of the bust's pictures: their face is large enough to judge, their files are small enough for a repository.
+const BUST: Size = Size { width: 80, height: 100 };
+
 /// Draws the bust with `profile`; returns the PNG's bytes.
 ///
 /// Four times finer than the picture: at the silhouette another driver may draw a pixel more or less.
@@ -83,7 +86,8 @@ fn bust(profile: &str, extra: &[&str]) -> Vec<u8> {
         let path = entry.unwrap().path();
         fs::copy(&path, materials.join("profiles").join(path.file_name().unwrap())).unwrap();
     }
-    let arguments = ["render", "--materials", text(&materials), "--size", "96x120", "--supersample", "4"];
+    let size = BUST.to_string();
+    let arguments = ["render", "--materials", text(&materials), "--size", &size, "--supersample", "4"];
     let stdout = succeed(&[&arguments[..], &["--out", text(&picture)], extra].concat());
     assert!(stdout.starts_with(text(&picture)), "the name of the picture is printed: {stdout}");
     fs::read(picture).unwrap()
@@ -154,7 +158,7 @@ fn the_same_command_gives_the_same_bytes_and_its_targets() {
     assert!(bust(stem, &["--aov", text(&aov)]) == *expected, "drawn twice, another picture");
 
     // Targets stay as they were drawn, four times finer.
-    let size = Size { width: 4 * 96, height: 4 * 120 };
+    let size = Size { width: 4 * BUST.width, height: 4 * BUST.height };
     let target = |name: &str| {
         let channels = Channels::read(&aov.join(name).with_extension("exr")).unwrap();
         let [r, g, b] = ["R", "G", "B"].map(|name| channels.samples(name, size).unwrap());
@@ -277,7 +281,8 @@ fn a_picture_beyond_the_device_is_refused_with_the_limit() {
 #[test]
 fn without_an_adapter_every_command_that_draws_names_the_remedy() {
     let folder = tempfile::tempdir().unwrap();
-    let (mesh, input) = (triangle(&folder), folder.path().join("in.exr"));
+    // The device comes before the scene: that there is no such file is never found out.
+    let (mesh, input) = (folder.path().join("missing.glb"), folder.path().join("in.exr"));
     buffers(&input, |_, _| 1.0, |_, _| 500.0, &[]);
     let (png, exr) = (folder.path().join("a.png"), folder.path().join("a.exr"));
     let (mesh, input, png, exr) = (text(&mesh), text(&input), text(&png), text(&exr));

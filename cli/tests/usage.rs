@@ -50,6 +50,10 @@ fn an_argument_out_of_range_is_a_usage_error_that_says_the_range() {
         (&["render", "--out", "a.jpg"], ".png or .exr"),
         (&["render", "--out", "a.png", "--taps", "0"], "1..=4096"),
         (&["render", "--out", "a.png", "--light", "0,0,0"], "direction is zero"),
+        (
+            &[&["render", "--out", "a.png"], &["--light", "0,0,-1"].repeat(5)[..]].concat(),
+            "--light is given 5 times, and a frame holds 4 lights",
+        ),
         (&["render", "--out", "a.png", "--camera", "1,2"], "three numbers"),
         (&["render", "--out", "a.png", "--fov-y-degrees", "180"], "between 1 and 170"),
         (

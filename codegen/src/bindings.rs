@@ -85,7 +85,7 @@ pub(crate) fn module_tokens(
         let name = format_ident!("ENTRY_{}", entry.name.to_ascii_uppercase());
         let (text, fallback) = (&entry.name, format!("{:?} entry point `{}`.", entry.stage, entry.name));
         let docs = doc_attributes(&entry.docs, &fallback);
-        tokens.extend(quote!(#docs pub const #name: &str = #text;));
+        tokens.extend(quote!(#docs #[allow(dead_code)] pub const #name: &str = #text;));
     }
     tokens
 }
@@ -175,6 +175,7 @@ fn structure_tokens(module: &naga::Module, structure: &Structure, paths: &Paths)
         #[repr(C)]
         #[derive(Clone, Copy, Debug, PartialEq, #bytemuck::Pod, #bytemuck::Zeroable)]
         #[bytemuck(crate = #crate_path)]
+        #[allow(dead_code)]
         pub struct #name { #(#fields),* }
         const _: () = {
             assert!(::core::mem::size_of::<#name>() == #size, #size_message);
@@ -216,7 +217,9 @@ fn bind_group_tokens(number: u32, bindings: &[(u32, &Bound)], paths: &Paths) -> 
     quote! {
         #[doc = #struct_doc]
         #[derive(Clone, Debug)]
+        #[allow(dead_code)]
         pub struct #name<'a> { #(#fields),* }
+        #[allow(dead_code)]
         impl #name<'_> {
             /// Number of the group in the WGSL.
             pub const INDEX: u32 = #index;
@@ -328,7 +331,9 @@ fn vertex_tokens(input: &VertexInput, paths: &Paths) -> TokenStream {
         #[repr(C)]
         #[derive(Clone, Copy, Debug, PartialEq, #bytemuck::Pod, #bytemuck::Zeroable)]
         #[bytemuck(crate = #crate_path)]
+        #[allow(dead_code)]
         pub struct #name { #(#fields),* }
+        #[allow(dead_code)]
         impl #name {
             /// Layout of a vertex buffer of these.
             pub const LAYOUT: #wgpu::VertexBufferLayout<'static> = #wgpu::VertexBufferLayout {
@@ -366,7 +371,9 @@ pub(crate) fn set_tokens(
         /// The materials of the set. `as u32` is the number that the G-buffer's surface target holds.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         #[repr(u32)]
+        #[allow(dead_code)]
         pub enum Material { #(#declarations),* }
+        #[allow(dead_code)]
         impl Material {
             /// Every material, by number.
             pub const ALL: [Self; #count] = [#(Self::#variants),*];
@@ -380,18 +387,30 @@ pub(crate) fn set_tokens(
             pub const fn name(self) -> &'static str {
                 Self::NAMES[self as usize]
             }
+            /// The row of the parameter table.
+            pub fn parameters(self) -> &'static #row_name {
+                &MATERIALS[self as usize]
+            }
+            /// What the surface target holds where this material is: its surface albedo and its number.
+            pub fn surface_texel(self) -> [f32; 4] {
+                let [red, green, blue] = self.parameters().surface.surface_albedo;
+                [red, green, blue, self.number() as f32]
+            }
             /// The material of that name.
             pub fn from_name(name: &str) -> Option<Self> {
                 Self::ALL.into_iter().find(|material| material.name() == name)
             }
         }
         /// SHA-256 of what the kernel was generated from.
+        #[allow(dead_code)]
         pub const PROVENANCE: &str = #provenance;
         /// The parameter table, by material number.
         pub static MATERIALS: [#row_name; #count] = [#(#rows),*];
         /// The kernel module as WGSL.
+        #[allow(dead_code)]
         pub const WGSL: &str = include_str!("subsurface.wgsl");
         /// The kernel of this set, for the passes of the runtime.
+        #[allow(dead_code)]
         pub fn kernel() -> #runtime::SubsurfaceKernel {
             #runtime::SubsurfaceKernel::from_generated(
                 WGSL,

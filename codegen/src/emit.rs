@@ -180,7 +180,7 @@ impl GaussianTerms {
 
 fn emit_constants(text: &mut String, set: &MaterialSet, models: &[ModelKind]) {
     let material_count = set.materials.len();
-    let _ = writeln!(text, "/// Materials in the set.\nconst MATERIAL_COUNT: u32 = {material_count}u;\n");
+    let _ = writeln!(text, "/// Materials in the set.\nconst MATERIALS_IN_SET: u32 = {material_count}u;\n");
     // Nothing of ours names a material, but a pass of the caller's own may; unused ones are dropped.
     for (number, material) in set.materials.iter().enumerate() {
         let name = screaming_case(&material.name);
@@ -271,9 +271,14 @@ fn emit_gaussian_terms(glue: &mut Glue, terms: &GaussianTerms) {
         "fn gaussian_sum_term(index: u32) -> vec4f {\n    return GAUSSIAN_SUM_TERMS[index];\n}\n\n",
     );
     text.push_str(
-        "/// Weights (red, green, blue; their sum is 1 per channel and model) and variance, mm².\n",
+        "/// Weights (red, green, blue; their sum is 1 per channel and model) and variance, mm².\n\
+         /// A variable, though nothing writes it: drivers copy a constant array each time it is indexed.\n",
     );
-    let _ = writeln!(text, "const GAUSSIAN_SUM_TERMS = array<vec4f, {}>(", terms.count);
+    let _ = writeln!(
+        text,
+        "var<private> GAUSSIAN_SUM_TERMS: array<vec4f, {0}> = array<vec4f, {0}>(",
+        terms.count
+    );
     for (model, _, profile) in &terms.sums {
         let sum = |channel: usize| model.terms.iter().map(|term| term.weight[channel]).sum::<f64>();
         let sums = [sum(0), sum(1), sum(2)];

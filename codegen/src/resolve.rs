@@ -1,5 +1,7 @@
 //! Puts the files of a set together: bases, profiles by name, and what only several files together can get wrong.
 
+mod cycle;
+
 use std::collections::{BTreeMap, BTreeSet};
 
 use subsurface_profile::{Channel, Length, Medium, Model};
@@ -20,8 +22,6 @@ const DEFAULT_ROUGHNESS: f64 = 0.40;
 const DEFAULT_TRANSMISSION_STRENGTH: f64 = 1.0;
 /// Materials named in the labels of an error in a profile that they use.
 const MOST_USERS: usize = 3;
-/// Members of a cycle that a message names.
-const MOST_LINKS: usize = 8;
 /// Names that a help text lists.
 const MOST_NAMES: usize = 16;
 
@@ -127,7 +127,7 @@ impl Resolution {
     /// Materials by name; reports names that are taken.
     fn name_materials<'a>(&mut self, files: &'a Files) -> BTreeMap<&'a str, &'a MaterialFile> {
         let mut by_name: BTreeMap<&str, &MaterialFile> = BTreeMap::new();
-        let mut by_identifier: BTreeMap<(bool, String), &MaterialFile> = BTreeMap::new();
+        let mut by_identifier: BTreeMap<String, &MaterialFile> = BTreeMap::new();
         for material in &files.materials {
             let name = material.name.value.as_str();
             if let Some(first) = by_name.get(name) {
@@ -143,9 +143,10 @@ impl Resolution {
             if identifier::check(name).is_err() {
                 continue; // reported, and no identifier comes of it
             }
-            let identifiers = [(true, camel_case(name)), (false, screaming_case(name))];
+            // The variant in Rust and the constant in WGSL; no variant has an underscore, so the two never meet.
+            let identifiers = [camel_case(name), format!("MATERIAL_{}", screaming_case(name))];
             let taken = identifiers.iter().find_map(|key| Some((key, *by_identifier.get(key)?)));
-            if let Some(((_, identifier), first)) = taken {
+            if let Some((identifier, first)) = taken {
                 let other = &first.name.value;
                 let diagnostic = Diagnostic::error(format!("the names `{other}` and `{name}` are too alike"))
                     .label(
@@ -182,8 +183,8 @@ impl Resolution {
                     .push(diagnostic.help(format!("the other materials are {}", some_of(names()))));
             }
         }
-        for cycle in cycles(&edges) {
-            let diagnostic = describe_cycle(&cycle, &edges, "material", "is its own base", "is based on");
+        for cycle in cycle::find(&edges) {
+            let diagnostic = cycle::describe(&cycle, &edges, "material", "is its own base", "is based on");
             self.diagnostics
                 .push(diagnostic.help("remove `base` from one of these materials and give it all fields"));
         }
@@ -431,8 +432,8 @@ fn check_aliases(files: &Files) -> Vec<Diagnostic> {
             diagnostics.push(unknown_profile(files, target));
         }
     }
-    for cycle in cycles(&edges) {
-        let diagnostic = describe_cycle(&cycle, &edges, "profile", "imports itself", "is");
+    for cycle in cycle::find(&edges) {
+        let diagnostic = cycle::describe(&cycle, &edges, "profile", "imports itself", "is");
         diagnostics.push(
             diagnostic
                 .help("write a model in one of these files, such as `Burley(parametrization: Searchlight)`"),
@@ -542,78 +543,9 @@ fn some_of<'a>(names: impl Iterator<Item = &'a str>) -> String {
     }
 }
 
-/// The cycles of a graph in which every node has at most one successor; each begins at its smallest name.
-fn cycles<'a>(edges: &BTreeMap<&'a str, (&'a str, &Span)>) -> Vec<Vec<&'a str>> {
-    let mut done: BTreeSet<&str> = BTreeSet::new();
-    let mut cycles = Vec::new();
-    for start in edges.keys() {
-        let mut path: Vec<&str> = Vec::new();
-        let mut on_path: BTreeMap<&str, usize> = BTreeMap::new();
-        let mut name: &'a str = start;
-        while !done.contains(name) {
-            if let Some(&first) = on_path.get(name) {
-                let mut cycle = path[first..].to_vec();
-                let smallest = (0..cycle.len()).min_by_key(|&index| cycle[index]).unwrap_or(0);
-                cycle.rotate_left(smallest);
-                cycles.push(cycle);
-                break;
-            }
-            on_path.insert(name, path.len());
-            path.push(name);
-            let Some((next, _)) = edges.get(name) else { break };
-            name = next;
-        }
-        done.extend(path);
-    }
-    cycles
-}
-
-fn describe_cycle(
-    cycle: &[&str],
-    edges: &BTreeMap<&str, (&str, &Span)>,
-    noun: &str,
-    what: &str,
-    link: &str,
-) -> Diagnostic {
-    let mut shown: Vec<String> = cycle.iter().take(MOST_LINKS).map(|name| format!("`{name}`")).collect();
-    if cycle.len() > MOST_LINKS {
-        shown.push(format!("{} more", cycle.len() - MOST_LINKS));
-    }
-    let first = cycle.first().copied().unwrap_or_default();
-    shown.push(format!("`{first}`"));
-    let mut diagnostic = Diagnostic::error(format!("{noun} `{first}` {what}: {}", shown.join(" -> ")));
-    for (index, name) in cycle.iter().take(MOST_LINKS).enumerate() {
-        if let Some((target, span)) = edges.get(name) {
-            let label = format!("`{name}` {link} `{target}`");
-            diagnostic = if index == 0 {
-                diagnostic.label((*span).clone(), label)
-            } else {
-                diagnostic.secondary((*span).clone(), label)
-            };
-        }
-    }
-    diagnostic
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::source::SourceMap;
-
-    #[test]
-    fn each_cycle_is_found_once_and_begins_at_its_smallest_name() {
-        let span = Span::new(SourceMap::new().add("x", ""), 0..0);
-        let edge = |from, to| (from, (to, &span));
-        let edges = BTreeMap::from([
-            edge("a", "d"), // a tail into the cycle d -> b -> c -> d
-            edge("b", "c"),
-            edge("c", "d"),
-            edge("d", "b"),
-            edge("e", "e"),
-            edge("f", "g"),
-        ]);
-        assert_eq!(cycles(&edges), [vec!["b", "c", "d"], vec!["e"]]);
-    }
 
     #[test]
     fn long_lists_of_names_end() {

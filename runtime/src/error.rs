@@ -45,6 +45,27 @@ pub enum ResizeError {
     StencilUnexpected,
 }
 
+/// Bytes that make no texture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum TexelsError {
+    /// The number of bytes does not fit the size.
+    #[error("a texture of {width}×{height} pixels of this format takes {expected} bytes, not {found}")]
+    Length {
+        /// Width in pixels.
+        width: u32,
+        /// Height in pixels.
+        height: u32,
+        /// Bytes that it takes.
+        expected: u64,
+        /// Bytes given.
+        found: u64,
+    },
+    /// Width or height is 0 or beyond what the device offers.
+    #[error(transparent)]
+    Size(#[from] SizeError),
+}
+
 /// Checks `size` against the device.
 pub(crate) fn check_size(device: &wgpu::Device, size: Extent) -> Result<(), SizeError> {
     let Extent { width, height } = size;

@@ -4,8 +4,8 @@ use wgpu::util::DeviceExt as _;
 
 use crate::Vertex;
 use crate::bindings::kernel::{BindGroup3, GBufferObject};
-use crate::error::{SizeError, check_size};
-use crate::target::Extent;
+use crate::error::TexelsError;
+use crate::target::{Extent, Target};
 
 /// Vertices and indices of one mesh.
 #[derive(Clone, Debug)]
@@ -54,33 +54,15 @@ pub struct TexturePixels<'a> {
     pub rgba: &'a [u8],
 }
 
-/// Pixels that make no texture.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[non_exhaustive]
-pub enum TextureError {
-    /// The number of bytes does not fit the size.
-    #[error("a texture of {width}×{height} pixels takes {expected} bytes of RGBA, not {found}")]
-    Length {
-        /// Width in pixels.
-        width: u32,
-        /// Height in pixels.
-        height: u32,
-        /// Bytes that it takes.
-        expected: u64,
-        /// Bytes given.
-        found: u64,
-    },
-    /// Width or height is 0 or beyond what the device offers.
-    #[error(transparent)]
-    Size(#[from] SizeError),
-}
-
 impl TexturePixels<'_> {
-    fn check(&self, device: &wgpu::Device) -> Result<(), TextureError> {
-        let Self { width, height, rgba } = *self;
-        check_size(device, Extent::new(width, height))?;
-        let (expected, found) = (4 * u64::from(width) * u64::from(height), rgba.len() as u64);
-        if expected == found { Ok(()) } else { Err(TextureError::Length { width, height, expected, found }) }
+    fn upload(
+        &self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        format: wgpu::TextureFormat,
+        label: &str,
+    ) -> Result<Target, TexelsError> {
+        Target::from_texels(device, queue, Extent::new(self.width, self.height), format, label, self.rgba)
     }
 }
 
@@ -134,17 +116,14 @@ impl Object {
         layout: &wgpu::BindGroupLayout,
         geometry: Geometry,
         surface: &SurfaceDescriptor<'_>,
-    ) -> Result<Self, TextureError> {
-        for pixels in [surface.surface_albedo, surface.normals].into_iter().flatten() {
-            pixels.check(device)?;
-        }
+    ) -> Result<Self, TexelsError> {
         let white = TexturePixels { width: 1, height: 1, rgba: &[255; 4] };
         let flat = TexturePixels { width: 1, height: 1, rgba: &[128, 128, 255, 255] };
         let colour = surface.surface_albedo.unwrap_or(white);
         let colour =
-            upload(device, queue, colour, wgpu::TextureFormat::Rgba8UnormSrgb, "Object surface albedo");
+            colour.upload(device, queue, wgpu::TextureFormat::Rgba8UnormSrgb, "Object surface albedo")?;
         let normals = surface.normals.unwrap_or(flat);
-        let normals = upload(device, queue, normals, wgpu::TextureFormat::Rgba8Unorm, "Object normals");
+        let normals = normals.upload(device, queue, wgpu::TextureFormat::Rgba8Unorm, "Object normals")?;
         let sampler = device.create_sampler(&wgpu::SamplerDescriptor {
             label: Some("Object sampler"),
             address_mode_u: wgpu::AddressMode::Repeat,
@@ -169,38 +148,11 @@ impl Object {
         });
         let bind_group = BindGroup3 {
             object: uniform.as_entire_buffer_binding(),
-            surface_albedo_texture: &colour,
-            normal_texture: &normals,
+            surface_albedo_texture: &colour.view,
+            normal_texture: &normals.view,
             surface_sampler: &sampler,
         }
         .create(device, layout, "Object bind group");
         Ok(Self { geometry, bind_group, translucent: surface.material.is_some() })
     }
-}
-
-fn upload(
-    device: &wgpu::Device,
-    queue: &wgpu::Queue,
-    pixels: TexturePixels<'_>,
-    format: wgpu::TextureFormat,
-    label: &str,
-) -> wgpu::TextureView {
-    let size = wgpu::Extent3d { width: pixels.width, height: pixels.height, depth_or_array_layers: 1 };
-    let descriptor = wgpu::TextureDescriptor {
-        label: Some(label),
-        size,
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format,
-        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
-        view_formats: &[],
-    };
-    let texture = device.create_texture_with_data(
-        queue,
-        &descriptor,
-        wgpu::util::TextureDataOrder::LayerMajor,
-        pixels.rgba,
-    );
-    texture.create_view(&wgpu::TextureViewDescriptor { label: Some(label), ..Default::default() })
 }

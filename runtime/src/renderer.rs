@@ -1,8 +1,8 @@
 //! All four passes in order.
 
 use crate::camera::{Bounds, Camera};
-use crate::error::ResizeError;
-use crate::geometry::{Geometry, Object, SurfaceDescriptor, TextureError};
+use crate::error::{ResizeError, TexelsError};
+use crate::geometry::{Geometry, Object, SurfaceDescriptor};
 use crate::kernel::SubsurfaceKernel;
 use crate::light::DirectionalLight;
 use crate::pass::composite::{CompositeInputs, CompositePass, CompositeSettings};
@@ -79,7 +79,7 @@ impl Renderer {
         queue: &wgpu::Queue,
         geometry: Geometry,
         surface: &SurfaceDescriptor<'_>,
-    ) -> Result<Object, TextureError> {
+    ) -> Result<Object, TexelsError> {
         self.gbuffer.object(device, queue, geometry, surface)
     }
 

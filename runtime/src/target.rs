@@ -1,6 +1,8 @@
 //! Textures that passes render into.
 
-use crate::error::{SizeError, check_size};
+use wgpu::util::DeviceExt as _;
+
+use crate::error::{SizeError, TexelsError, check_size};
 
 /// Stencil value of translucent pixels; only this bit is read or written.
 pub const TRANSLUCENT_STENCIL: u32 = 1;
@@ -60,6 +62,45 @@ impl Target {
                 | wgpu::TextureUsages::COPY_SRC,
             view_formats: &[],
         });
+        let view =
+            texture.create_view(&wgpu::TextureViewDescriptor { label: Some(label), ..Default::default() });
+        Ok(Self { texture, view })
+    }
+
+    /// A 2-D texture of an uncompressed colour format that holds `texels`, rows from the top without padding; to be
+    /// read in shaders and copied from.
+    ///
+    /// # Errors
+    /// A size of 0 or beyond the device's limit, or bytes that do not fit it.
+    pub fn from_texels(
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        size: Extent,
+        format: wgpu::TextureFormat,
+        label: &str,
+        texels: &[u8],
+    ) -> Result<Self, TexelsError> {
+        check_size(device, size)?;
+        let Extent { width, height } = size;
+        let texel = u64::from(format.block_copy_size(None).unwrap_or(0));
+        let (expected, found) = (texel * u64::from(width) * u64::from(height), texels.len() as u64);
+        if expected != found {
+            return Err(TexelsError::Length { width, height, expected, found });
+        }
+        let descriptor = wgpu::TextureDescriptor {
+            label: Some(label),
+            size: size.into(),
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format,
+            usage: wgpu::TextureUsages::TEXTURE_BINDING
+                | wgpu::TextureUsages::COPY_DST
+                | wgpu::TextureUsages::COPY_SRC,
+            view_formats: &[],
+        };
+        let order = wgpu::util::TextureDataOrder::LayerMajor;
+        let texture = device.create_texture_with_data(queue, &descriptor, order, texels);
         let view =
             texture.create_view(&wgpu::TextureViewDescriptor { label: Some(label), ..Default::default() });
         Ok(Self { texture, view })

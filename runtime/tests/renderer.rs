@@ -264,7 +264,7 @@ fn textures_whose_bytes_do_not_fit_are_refused() {
     let surface = SurfaceDescriptor { surface_albedo: Some(short), ..Default::default() };
     let geometry = Geometry::new(&gpu.device, &vertices, &indices);
     let error = scene.renderer.object(&gpu.device, &gpu.queue, geometry, &surface).expect_err("15 bytes");
-    assert_eq!(error.to_string(), "a texture of 2×2 pixels takes 16 bytes of RGBA, not 15");
+    assert_eq!(error.to_string(), "a texture of 2×2 pixels of this format takes 16 bytes, not 15");
 }
 
 #[test]

@@ -53,7 +53,7 @@ fn gather_importance_sampled(
             continue;
         }
         let tap_surface = textureLoad(surface, position, 0);
-        if material_number(tap_surface.w, MATERIAL_COUNT) != material {
+        if material_number(tap_surface.w, MATERIALS_IN_SET) != material {
             continue;
         }
         let tap_distance_mm = distance_from_depth_mm(textureLoad(depth, position, 0).r, view.distance_from_depth);

@@ -141,19 +141,24 @@ fn transmitted_irradiance(
     let moved_in_mm = light.shadow_normal_offset * facing_away * light.millimetres_per_world_unit;
     let across = normalize(cross(light.towards_light, select(vec3f(0.0, 1.0, 0.0), vec3f(1.0, 0.0, 0.0), abs(light.towards_light.y) > 0.9)));
     let along = cross(light.towards_light, across);
-    var through = vec3f(0.0);
     // The mean over a small disc hides the steps of the shadow map's texels.
+    var thickness_mm = 0.0;
+    var seen = 0.0;
     for (var tap = 0u; tap < SHADOW_TAPS; tap += 1u) {
         let offset = light.thickness_filter_radius * vogel_disc(tap, SHADOW_TAPS);
         let point = light.shadow_from_world * vec4f(inside + offset.x * across + offset.y * along, 1.0);
         let nearest = nearest_to_light(shadow_maps, point.xy, layer);
-        if nearest >= 1.0 {
-            continue; // the map saw nothing here: what was not measured does not glow
+        if nearest < 1.0 {
+            thickness_mm += max(point.z - nearest, 0.0) * light.shadow_range_mm + moved_in_mm;
+            seen += 1.0;
         }
-        let thickness_mm = max(point.z - nearest, 0.0) * light.shadow_range_mm + moved_in_mm;
-        through += channel_transmittance(profiles, surface_albedo, thickness_mm);
     }
-    return light.irradiance * facing_away * through / f32(SHADOW_TAPS);
+    if seen == 0.0 {
+        return vec3f(0.0); // the map saw nothing here: what was not measured does not glow
+    }
+    // Directions in which the map saw nothing let nothing through.
+    let through = channel_transmittance(profiles, surface_albedo, thickness_mm / seen) * seen / f32(SHADOW_TAPS);
+    return light.irradiance * facing_away * through;
 }
 
 @fragment
@@ -171,7 +176,7 @@ fn gbuffer_fragment(interpolated: GBufferInterpolated, @builtin(front_facing) fr
     let normal = select(smooth_normal, bent_normal, object.normal_scale > 0.0);
     let towards_camera = normalize(frame.camera_position - interpolated.world_position);
 
-    let translucent = material_number(f32(object.material), MATERIAL_COUNT) != NO_MATERIAL;
+    let translucent = material_number(f32(object.material), MATERIALS_IN_SET) != NO_MATERIAL;
     let row = material_table[select(0, object.material, translucent)];
     let textured = texel.rgb * object.surface_albedo_factor;
     let override_albedo = select(1.0, object.surface_albedo_override, translucent);

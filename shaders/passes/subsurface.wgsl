@@ -33,7 +33,7 @@ fn subsurface_fragment(@builtin(position) position: vec4f) -> @location(0) vec4f
     let pixel = vec2i(position.xy);
     let own = textureLoad(irradiance_texture, pixel, 0);
     let surface = textureLoad(surface_texture, pixel, 0);
-    let material = material_number(surface.w, MATERIAL_COUNT);
+    let material = material_number(surface.w, MATERIALS_IN_SET);
     let depth = textureLoad(depth_texture, pixel, 0).r;
     let distance_mm = distance_from_depth_mm(depth, subsurface_view.distance_from_depth);
     if material == NO_MATERIAL || distance_mm == 0.0 {

@@ -4,6 +4,7 @@ use clap::Args;
 
 use crate::draw::device::Device;
 use crate::failure::Failure;
+use crate::say;
 
 /// Name the graphics adapter that pictures are drawn on; exit with 1 if there is none.
 #[derive(Debug, Args)]
@@ -11,6 +12,6 @@ pub struct AdapterArguments {}
 
 /// Runs the command.
 pub fn run(_: &AdapterArguments) -> Result<(), Failure> {
-    println!("{}", Device::open()?.description());
+    say!("{}", Device::open()?.description());
     Ok(())
 }

@@ -2,6 +2,7 @@
 
 use super::material_set;
 use crate::failure::Failure;
+use crate::say;
 use clap::Args;
 use std::path::PathBuf;
 
@@ -24,7 +25,7 @@ pub fn run(arguments: &BuildArguments) -> Result<(), Failure> {
     let compilation = material_set::compile(&arguments.materials)?;
     compilation.write_to(&arguments.out).map_err(|error| Failure::reported(error.to_string()))?;
     for extension in ["wgsl", "rs", "json"] {
-        println!("{}", arguments.out.join("subsurface").with_extension(extension).display());
+        say!("{}", arguments.out.join("subsurface").with_extension(extension).display());
     }
     Ok(())
 }

@@ -2,6 +2,7 @@
 
 use super::material_set::colour;
 use crate::failure::Failure;
+use crate::say;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 use subsurface_codegen::check_paths;
@@ -45,7 +46,7 @@ pub fn run(arguments: &CheckArguments) -> Result<(), Failure> {
         counted(checked.files_read.len(), "file")
     );
     match arguments.format {
-        Format::Json => println!("{:#}", report.to_json()),
+        Format::Json => say!("{:#}", report.to_json()),
         Format::Human if !report.is_empty() => eprintln!("{}", report.render(colour())),
         Format::Human => (),
     }

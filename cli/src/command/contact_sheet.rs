@@ -8,6 +8,7 @@ use crate::failure::Failure;
 use crate::picture::contact_sheet::{Tile, compose};
 use crate::picture::{file, write_png};
 use crate::progress::bar;
+use crate::say;
 use crate::scene::camera::{Camera, DEFAULT_FOV_Y_DEGREES, Light, Size};
 use clap::{Args, value_parser};
 use std::path::{Path, PathBuf};
@@ -68,10 +69,11 @@ pub fn run(arguments: &ContactSheetArguments) -> Result<(), Failure> {
     material_set::number(&original, &arguments.material)?;
     // One set, hence one kernel module, holds all variants.
     let materials = material_set::compile_files(with_variants(&original.files_read, arguments)?)?;
-    let scene = load_scene(&arguments.mesh)?;
-    let camera = Camera::framing(&scene.bounds, arguments.size.aspect(), DEFAULT_FOV_Y_DEGREES);
+    // Without an adapter, there is no point in sculpting.
     let mut studio = Studio::open(&materials)?;
-    println!("{}", studio.description());
+    say!("{}", studio.description());
+    let scene = load_scene(&arguments.mesh)?;
+    let camera = Camera::framing(&scene, arguments.size.aspect(), DEFAULT_FOV_Y_DEGREES);
     let progress = bar(TILES.len() as u64, "drawing");
     let mut tiles = Vec::new();
     for (caption, profile) in TILES {
@@ -96,14 +98,14 @@ pub fn run(arguments: &ContactSheetArguments) -> Result<(), Failure> {
             .iter()
             .map(|(pass, time)| format!("{pass} {:.3} ms", time.as_secs_f64() * 1e3))
             .collect();
-        progress.suspend(|| println!("{caption}: {:.3} ms ({})", total * 1e3, passes.join(", ")));
+        progress.suspend(|| say!("{caption}: {:.3} ms ({})", total * 1e3, passes.join(", ")));
         progress.inc(1);
     }
     progress.finish_and_clear();
     let title = format!("{} / {} taps", arguments.material, arguments.taps);
     if let Some(sheet) = compose(&title, &tiles, COLUMNS) {
         write_png(&arguments.out, &sheet)?;
-        println!("{}", arguments.out.display());
+        say!("{}", arguments.out.display());
     }
     Ok(())
 }

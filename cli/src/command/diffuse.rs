@@ -6,6 +6,7 @@ use crate::failure::Failure;
 use crate::picture::exr::{self, Channels};
 use crate::picture::{PictureError, file};
 use crate::progress::Spinner;
+use crate::say;
 use crate::scene::camera::Size;
 use clap::{Args, value_parser};
 use std::path::{Path, PathBuf};
@@ -77,7 +78,7 @@ pub fn run(arguments: &DiffuseArguments) -> Result<(), Failure> {
         draw::diffuse(&buffers, &materials, scale, arguments.taps, arguments.seed)?
     };
     exr::write_exr(&arguments.out, &picture)?;
-    println!("{}", arguments.out.display());
+    say!("{}", arguments.out.display());
     Ok(())
 }
 

@@ -11,6 +11,7 @@ pub mod build;
 pub mod check;
 pub mod contact_sheet;
 pub mod diffuse;
+mod lights;
 mod material_set;
 mod number;
 pub mod profile;

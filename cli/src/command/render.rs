@@ -6,6 +6,7 @@ use crate::draw::{DEFAULT_TAPS, Drawn, Frame, LARGEST_TAPS, Studio};
 use crate::failure::Failure;
 use crate::picture::{exr, file, write_png};
 use crate::progress::Spinner;
+use crate::say;
 use crate::scene::Scene;
 use crate::scene::camera::Size;
 use clap::{Args, value_parser};
@@ -91,10 +92,11 @@ pub fn run(arguments: &RenderArguments) -> Result<(), Failure> {
     file::folder_of(arguments.out.path())?;
     let materials = material_set::compile(&arguments.materials)?;
     let material = material_set::number(&materials, &arguments.material)?;
+    let mut studio = Studio::open(&materials)?;
     let scene = load_scene(&arguments.mesh)?;
     let drawn = {
         let _spinner = Spinner::new("drawing");
-        Studio::open(&materials)?.draw(&Frame {
+        studio.draw(&Frame {
             scene: &scene,
             material_of_object: &material_of_object(&scene, &materials, material),
             camera: arguments.view.camera(&scene, arguments.size)?,
@@ -123,7 +125,7 @@ fn save(arguments: &RenderArguments, drawn: &Drawn) -> Result<(), Failure> {
         PictureFile::Png(path) => write_png(path, &drawn.display)?,
         PictureFile::Exr(path) => exr::write_exr(path, &drawn.linear)?,
     }
-    println!("{}", arguments.out.path().display());
+    say!("{}", arguments.out.path().display());
     if let Some(folder) = &arguments.aov {
         std::fs::create_dir_all(folder).map_err(|reason| {
             let message = format!("cannot create {}: {reason}", folder.display());
@@ -132,7 +134,7 @@ fn save(arguments: &RenderArguments, drawn: &Drawn) -> Result<(), Failure> {
         for (name, picture) in &drawn.aovs {
             let path = folder.join(name).with_extension("exr");
             exr::write_exr(&path, picture)?;
-            println!("{}", path.display());
+            say!("{}", path.display());
         }
     }
     Ok(())

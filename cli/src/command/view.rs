@@ -1,5 +1,6 @@
 //! Scenes and views as several commands take them.
 
+use super::lights::Lights;
 use super::number;
 use crate::failure::{Failure, warning};
 use crate::progress::Spinner;
@@ -80,16 +81,15 @@ pub struct ViewArguments {
     /// Vertical field of view in degrees.
     #[arg(long, value_name = "D", default_value_t = DEFAULT_FOV_Y_DEGREES, value_parser = number::fov_y_degrees, allow_hyphen_values = true)]
     pub fov_y_degrees: f32,
-    /// A directional light: the way in which it travels, from the light to the scene, and its irradiance (default 1).
-    /// May be given several times; by default a key light and a rim light from behind.
-    #[arg(long = "light", value_name = "dx,dy,dz[,intensity]", allow_hyphen_values = true)]
-    pub lights: Vec<Light>,
+    /// Where the light comes from.
+    #[command(flatten)]
+    pub lights: Lights,
 }
 
 impl ViewArguments {
     /// The camera for a scene; what is not given frames the scene.
     pub fn camera(&self, scene: &Scene, size: Size) -> Result<Camera, Failure> {
-        let mut camera = Camera::framing(&scene.bounds, size.aspect(), self.fov_y_degrees);
+        let mut camera = Camera::framing(scene, size.aspect(), self.fov_y_degrees);
         if let Some(Triple(target)) = self.target {
             // Keep the direction and the distance.
             let offset = Vec3::from(camera.position) - Vec3::from(camera.target);
@@ -116,6 +116,7 @@ impl ViewArguments {
 
     /// The lights, or the default ones.
     pub fn lights(&self) -> Vec<Light> {
-        if self.lights.is_empty() { Light::DEFAULT.to_vec() } else { self.lights.clone() }
+        let Lights(given) = &self.lights;
+        if given.is_empty() { Light::DEFAULT.to_vec() } else { given.clone() }
     }
 }

@@ -1,8 +1,7 @@
 //! The subsurface pass alone, on somebody's own buffers.
 
 use subsurface_codegen::Compilation;
-use subsurface_runtime::{Extent, SubsurfaceInputs, SubsurfacePass, SubsurfaceView, wgpu};
-use wgpu::util::DeviceExt as _;
+use subsurface_runtime::{Extent, SubsurfaceInputs, SubsurfacePass, SubsurfaceView, Target, wgpu};
 
 use super::device::Device;
 use super::{beyond_device, kernel};
@@ -45,39 +44,40 @@ pub fn diffuse(
     let device = Device::open()?;
     let kernel = kernel(materials)?;
     let size = Extent::new(buffers.size.width, buffers.size.height);
-    // Before anything is uploaded: a texture beyond the limit would be refused in other words.
-    subsurface_runtime::Target::new(&device.device, size, wgpu::TextureFormat::R8Unorm, "diffuse size check")
-        .map_err(|error| beyond_device(&error))?;
     let view = match scale {
         PixelScale::MillimetresPerPixel(mm) => SubsurfaceView::orthographic_distances(mm),
         PixelScale::FovYDegrees(degrees) => {
             SubsurfaceView::perspective_distances(degrees.to_radians(), size.height)
         }
     };
-    let own_albedo = |number: u32| materials.set.materials[number as usize].surface_albedo.map(|a| a as f32);
+    let own_surface_albedo =
+        |number: u32| materials.set.materials[number as usize].surface_albedo.map(|a| a as f32);
     let surface: Vec<[f32; 4]> = buffers
         .material
         .iter()
         .enumerate()
         .map(|(pixel, &number)| {
             let given = buffers.surface_albedo.as_ref().map(|albedos| albedos[pixel]);
-            let [red, green, blue] = given.unwrap_or_else(|| own_albedo(number));
+            let [red, green, blue] = given.unwrap_or_else(|| own_surface_albedo(number));
             [red, green, blue, number as f32]
         })
         .collect();
     let irradiance: Vec<[f32; 4]> = buffers.irradiance.iter().map(|[r, g, b]| [*r, *g, *b, 1.0]).collect();
     device.checked(|| {
         let rgba32 = wgpu::TextureFormat::Rgba32Float;
-        let irradiance =
-            upload(&device, size, rgba32, bytemuck::cast_slice(&irradiance), "diffuse irradiance");
-        let surface = upload(&device, size, rgba32, bytemuck::cast_slice(&surface), "diffuse surface");
-        let r32 = wgpu::TextureFormat::R32Float;
-        let depth = upload(&device, size, r32, bytemuck::cast_slice(&buffers.depth_mm), "diffuse distance");
+        let upload = |format, texels, label| {
+            Target::from_texels(&device.device, &device.queue, size, format, label, texels)
+                .map_err(|error| beyond_device(&error))
+        };
+        let irradiance = upload(rgba32, bytemuck::cast_slice(&irradiance), "diffuse irradiance")?;
+        let surface = upload(rgba32, bytemuck::cast_slice(&surface), "diffuse surface")?;
+        let distances = bytemuck::cast_slice(&buffers.depth_mm);
+        let depth = upload(wgpu::TextureFormat::R32Float, distances, "diffuse distance")?;
         let mut pass = SubsurfacePass::new(&device.device, &kernel, rgba32, None);
         let inputs = SubsurfaceInputs {
-            irradiance: &irradiance,
-            surface: &surface,
-            depth: &depth,
+            irradiance: &irradiance.view,
+            surface: &surface.view,
+            depth: &depth.view,
             depth_stencil: None,
         };
         pass.resize(&device.device, size, &inputs).map_err(|error| beyond_device(&error))?;
@@ -95,28 +95,4 @@ pub fn diffuse(
             pixels: texels.into_iter().map(|[r, g, b, _]| [r, g, b]).collect(),
         })
     })
-}
-
-fn upload(
-    device: &Device,
-    size: Extent,
-    format: wgpu::TextureFormat,
-    bytes: &[u8],
-    label: &str,
-) -> wgpu::TextureView {
-    let descriptor = wgpu::TextureDescriptor {
-        label: Some(label),
-        size: size.into(),
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format,
-        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
-        view_formats: &[],
-    };
-    let order = wgpu::util::TextureDataOrder::LayerMajor;
-    device
-        .device
-        .create_texture_with_data(&device.queue, &descriptor, order, bytes)
-        .create_view(&wgpu::TextureViewDescriptor { label: Some(label), ..Default::default() })
 }

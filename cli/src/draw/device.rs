@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use subsurface_runtime::wgpu;
+use subsurface_runtime::{Readback, wgpu};
 
 use crate::failure::{Explain, Failure};
 
@@ -144,38 +144,11 @@ impl Device {
 
     /// Bytes of a texture, rows from the top without padding.
     pub(crate) fn read_bytes(&self, texture: &wgpu::Texture) -> Result<Vec<u8>, Failure> {
-        let texel = texture.format().block_copy_size(None).unwrap_or(4);
-        let row = texture.width() * texel;
-        let padded = row.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
-        let buffer = self.device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some("Device readback"),
-            size: u64::from(padded) * u64::from(texture.height()),
-            usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
-            mapped_at_creation: false,
-        });
         let label = Some("Device readback");
         let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label });
-        encoder.copy_texture_to_buffer(
-            texture.as_image_copy(),
-            wgpu::TexelCopyBufferInfo {
-                buffer: &buffer,
-                layout: wgpu::TexelCopyBufferLayout {
-                    offset: 0,
-                    bytes_per_row: Some(padded),
-                    rows_per_image: None,
-                },
-            },
-            texture.size(),
-        );
+        let readback = Readback::record(&self.device, &mut encoder, texture);
         self.queue.submit([encoder.finish()]);
-        let (sender, receiver) = std::sync::mpsc::channel();
-        // The receiver outlives the wait below; a closed channel has nobody left to tell.
-        buffer.map_async(wgpu::MapMode::Read, .., move |result| sender.send(result).unwrap_or(()));
-        self.wait()?;
-        let lost = |reason: String| Failure::from(DeviceError::Lost { reason });
-        receiver.recv().map_err(|error| lost(error.to_string()))?.map_err(|error| lost(error.to_string()))?;
-        let mapped = buffer.get_mapped_range(..).map_err(|error| lost(error.to_string()))?;
-        Ok(mapped.chunks(padded as usize).flat_map(|line| &line[..row as usize]).copied().collect())
+        readback.wait(&self.device).map_err(|error| DeviceError::Lost { reason: error.to_string() }.into())
     }
 }
 

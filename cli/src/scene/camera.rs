@@ -1,6 +1,6 @@
 //! Where one looks from, and where the light comes from.
 
-use super::Bounds;
+use super::Scene;
 use glam::Vec3;
 use std::str::FromStr;
 
@@ -19,24 +19,33 @@ pub struct Camera {
 }
 
 impl Camera {
-    /// The whole of `bounds` in a picture of `aspect` = width / height, from 35° to the right of +z and a little above.
-    pub fn framing(bounds: &Bounds, aspect: f32, fov_y_degrees: f32) -> Self {
+    /// The whole of `scene` in the middle of a picture of `aspect` = width / height, from 35° to the right of +z and a
+    /// little above.
+    pub fn framing(scene: &Scene, aspect: f32, fov_y_degrees: f32) -> Self {
         let direction = Vec3::new(35f32.to_radians().sin(), 0.08, 35f32.to_radians().cos()).normalize();
         let half_y = 0.5 * fov_y_degrees.to_radians();
         let half_x = (half_y.tan() * aspect).atan();
-        let centre = Vec3::from(bounds.centre());
         let right = Vec3::Y.cross(direction).normalize();
         let up = direction.cross(right);
-        // The nearest distance from which every corner of the box is inside all four planes, and 6 % of air.
-        let mut distance: f32 = 0.0;
-        for corner in 0..8 {
-            let pick = |axis: usize| {
-                if corner >> axis & 1 == 0 { bounds.minimum[axis] } else { bounds.maximum[axis] }
-            };
-            let offset = Vec3::new(pick(0), pick(1), pick(2)) - centre;
+        let points =
+            || scene.objects.iter().flat_map(|object| &object.mesh.positions).map(|p| Vec3::from(*p));
+        let middle = |axis: Vec3| {
+            let extent =
+                |(low, high): (f32, f32), point: Vec3| (low.min(point.dot(axis)), high.max(point.dot(axis)));
+            let (low, high) = points().fold((f32::INFINITY, f32::NEG_INFINITY), extent);
+            0.5 * (low + high)
+        };
+        let centre = if points().next().is_some() {
+            middle(right) * right + middle(up) * up + middle(direction) * direction
+        } else {
+            Vec3::ZERO
+        };
+        // The nearest distance from which every vertex is inside all four planes, and 6 % of air; a lone point needs some.
+        let distance = points().fold(1e-3f32, |distance, point| {
+            let offset = point - centre;
             let (x, y, z) = (offset.dot(right).abs(), offset.dot(up).abs(), offset.dot(direction));
-            distance = distance.max(z + x / half_x.tan()).max(z + y / half_y.tan());
-        }
+            distance.max(z + x / half_x.tan()).max(z + y / half_y.tan())
+        });
         let position = centre + direction * distance * 1.06;
         Self { position: position.to_array(), target: centre.to_array(), fov_y_degrees }
     }
@@ -166,6 +175,7 @@ impl std::fmt::Display for Size {
 #[allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 mod tests {
     use super::*;
+    use crate::scene::{Mesh, Object};
 
     #[test]
     fn a_light_is_a_unit_direction_and_an_intensity() {
@@ -195,15 +205,18 @@ mod tests {
 
     #[test]
     fn framing_holds_every_corner_in_the_picture() {
-        let bounds = Bounds { minimum: [-0.2, -0.1, -0.3], maximum: [0.1, 0.4, 0.2] };
+        let (minimum, maximum) = ([-0.2, -0.1, -0.3], [0.1, 0.4, 0.2]);
+        let corner = |index: usize| [0, 1, 2].map(|axis| [minimum, maximum][index >> axis & 1][axis]);
+        let positions: Vec<[f32; 3]> = (0..8).map(corner).collect();
+        let mesh = Mesh { positions: positions.clone(), ..Mesh::default() };
+        let scene = Scene::new(vec![Object { mesh, ..Object::default() }]);
         for aspect in [0.3, 1.0, 2.5] {
-            let camera = Camera::framing(&bounds, aspect, 30.0);
+            let camera = Camera::framing(&scene, aspect, 30.0);
             let to_target = (Vec3::from(camera.target) - Vec3::from(camera.position)).normalize();
             let right = to_target.cross(Vec3::Y).normalize();
             let up = right.cross(to_target);
-            for corner in 0..8 {
-                let at = |axis: usize| [bounds.minimum, bounds.maximum][corner >> axis & 1][axis];
-                let offset = Vec3::new(at(0), at(1), at(2)) - Vec3::from(camera.position);
+            for position in &positions {
+                let offset = Vec3::from(*position) - Vec3::from(camera.position);
                 let depth = offset.dot(to_target);
                 let edge = depth * 15f32.to_radians().tan();
                 assert!(offset.dot(up).abs() < edge);

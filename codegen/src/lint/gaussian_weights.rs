@@ -21,7 +21,7 @@ pub(super) fn check(material: &Draft<'_>, diagnostics: &mut Vec<Diagnostic>) {
             let sum = model.terms.iter().map(|term| term.weight[index]).sum();
             (channel, sum, material.surface_albedo.values[index])
         })
-        .filter(|&(_, sum, albedo)| !is_near(sum, 1.0) && !is_near(sum, albedo))
+        .filter(|&(_, sum, surface_albedo)| !is_near(sum, 1.0) && !is_near(sum, surface_albedo))
         .collect();
     if suspect.is_empty() {
         return;
@@ -29,11 +29,12 @@ pub(super) fn check(material: &Draft<'_>, diagnostics: &mut Vec<Diagnostic>) {
     let sums: Vec<String> =
         suspect.iter().map(|(channel, sum, _)| format!("{} in {channel}", rounded(*sum))).collect();
     let factors: Vec<String> = suspect.iter().map(|(_, sum, _)| rounded(*sum)).collect();
-    let albedos: Vec<String> = suspect.iter().map(|(_, _, albedo)| rounded(*albedo)).collect();
+    let surface_albedos: Vec<String> =
+        suspect.iter().map(|(_, _, surface_albedo)| rounded(*surface_albedo)).collect();
     let mut diagnostic = Diagnostic::warning("the weights of the Gaussians do not sum to the surface albedo")
         .label(
             material.profile.span.clone(),
-            format!("the weights sum to {}, not to 1 and not to {}", sums.join(", "), albedos.join(", ")),
+            format!("the weights sum to {}, not to 1 and not to {}", sums.join(", "), surface_albedos.join(", ")),
         )
         .help(format!("weights are divided by their sum, so nothing is lost if only their ratios count; else divide them by {}", factors.join(", ")));
     if let Some(span) = material.profile_name {

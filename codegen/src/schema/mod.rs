@@ -4,9 +4,12 @@
 
 mod decoder;
 mod material;
+mod model_error_text;
 mod profile;
 mod quantity;
+mod rounded;
 
 pub(crate) use decoder::{Decoder, Given, Triple};
 pub(crate) use material::{LengthGiven, MaterialFile, SCHEMA_VERSION, decode_material};
-pub(crate) use profile::{ProfileExpression, ProfileFile, decode_profile_file, rounded};
+pub(crate) use profile::{ProfileExpression, ProfileFile, decode_profile_file};
+pub(crate) use rounded::rounded;

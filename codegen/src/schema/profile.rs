@@ -9,6 +9,7 @@ use subsurface_profile::{
 
 use crate::diagnostics::Diagnostic;
 use crate::schema::decoder::{Decoder, Fields, head};
+use crate::schema::model_error_text::describe;
 use crate::schema::quantity::{COEFFICIENT, VARIANCE, WEIGHT};
 use crate::source::{FileId, Span, Spanned};
 use crate::suggestion::{closest, list, shortened};
@@ -117,7 +118,7 @@ pub(crate) fn decode_profile(
     }?;
     let errors = model_errors(&model);
     for error in &errors {
-        decoder.report(describe(error, &name, &spans));
+        decoder.report(describe(error, &name.span, &spans));
     }
     errors.is_empty().then_some(ProfileExpression::Inline(InlineModel {
         model,
@@ -478,128 +479,9 @@ fn model_errors(model: &Model) -> Vec<ModelError> {
     probed_surface_albedos().find_map(at).into_iter().collect()
 }
 
-/// The error of a model, at the coefficients that are to blame.
-fn describe(error: &ModelError, name: &Name<'_>, spans: &BTreeMap<String, Span>) -> Diagnostic {
-    // Numbers are rounded: the last digits of e^x differ between systems, and a message must not.
-    let at = |surface_albedo: &f64| format!("at surface albedo {}", rounded(*surface_albedo));
-    let (path, message, label, help): (&str, String, &str, &str) = match error {
-        ModelError::NotFinite { coefficient } => {
-            (coefficient, error.to_string(), "not a finite number", COEFFICIENT.meaning)
-        }
-        ModelError::WeightsSumToZero { channel } => (
-            "",
-            format!("{channel} weights of the Gaussians sum to 0"),
-            "all weights of this channel are 0",
-            "give one Gaussian a weight above 0 in each channel; for a black channel set `surface_albedo` to 0",
-        ),
-        ModelError::NegativeMaximumRadius { radius_mm, surface_albedo } => (
-            "a",
-            format!("the maximum radius is {} mean free paths {}", rounded(*radius_mm), at(surface_albedo)),
-            "r_max = -b/a must be above 0",
-            "a = (linear α + amplitude 10^(decades (α - 1)))/ℓ must be negative: Liang et al. have `linear: -0.0064`",
-        ),
-        ModelError::NoMaximumRadius { surface_albedo } => (
-            "a",
-            format!("the profile has no maximum radius {}", at(surface_albedo)),
-            "a = 0 here, so the profile never falls to 0",
-            "a = (linear α + amplitude 10^(decades (α - 1)))/ℓ must be negative: Liang et al. have `linear: -0.0064`",
-        ),
-        ModelError::NegativeProfile { surface_albedo, .. } => (
-            "b",
-            format!("the profile is negative {}", at(surface_albedo)),
-            "b/c is the profile's value at the origin, so b must be above 0",
-            "b = scale α^(…): give `scale` a value above 0; Liang et al., corrected, have 0.0635",
-        ),
-        ModelError::PoleNotNegative { c_mm, surface_albedo } => (
-            "c",
-            format!("c is {} mean free paths {}", rounded(*c_mm), at(surface_albedo)),
-            "c must be above 0: the profile has a pole at r = -c",
-            "c = (amplitude e^(rate α) + offset) ℓ: make `offset` larger; Liang et al. have 0.166",
-        ),
-        ModelError::ShapeNotPositive { s, surface_albedo } => (
-            "shape",
-            format!("Burley's s is {} {}", rounded(*s), at(surface_albedo)),
-            "s(A) must be above 0",
-            "s(A) = constant + slope A + amplitude |A - pivot|^exponent: make `constant` larger",
-        ),
-        ModelError::ExponentialWeightOutOfRange { weight, surface_albedo } => (
-            "exponential_weight",
-            format!("the exponential's weight is {} {}", rounded(*weight), at(surface_albedo)),
-            "w(A) must be from 0 to 1",
-            "w(A) = constant + linear A + quadratic A² must stay within [0, 1] for all A in [0, 1]",
-        ),
-        ModelError::ExponentialLengthNotPositive { length, surface_albedo } => (
-            "exponential_length",
-            format!("the exponential's length is {} {}", rounded(*length), at(surface_albedo)),
-            "d(A) must be above 0",
-            "d(A) = constant + linear A + quadratic A² must stay above 0 for all A in [0, 1]",
-        ),
-        ModelError::DipoleDepthNotPositive { depth, surface_albedo } => (
-            "dipole_depth",
-            format!("the dipole's depth is {} {}", rounded(*depth), at(surface_albedo)),
-            "z(A) must be above 0",
-            "z(A) = constant + linear A + quadratic A² must stay above 0 for all A in [0, 1]",
-        ),
-        ModelError::NegativeDipoleAttenuation { attenuation, surface_albedo } => (
-            "dipole_attenuation",
-            format!("the dipole's attenuation is {} {}", rounded(*attenuation), at(surface_albedo)),
-            "s(A) must be 0 or more",
-            "s(A) = (1 - A)(constant + linear A + quadratic A²) must not be negative for any A in [0, 1]",
-        ),
-        _ => (
-            "",
-            error.to_string(),
-            "this model has no profile",
-            "compare with a published set of coefficients",
-        ),
-    };
-    let span = spans.get(path).unwrap_or(&name.span).clone();
-    let diagnostic = Diagnostic::error(message).label(span, label).help(help);
-    let of_coefficients_alone = matches!(
-        error,
-        ModelError::NotFinite { .. }
-            | ModelError::NoTerms
-            | ModelError::VarianceNotPositive { .. }
-            | ModelError::NegativeWeight { .. }
-            | ModelError::WeightsSumToZero { .. }
-    );
-    if of_coefficients_alone {
-        diagnostic
-    } else {
-        diagnostic.help(
-            "a texture may set the surface albedo of a pixel: a model needs a profile for all of [0, 1]",
-        )
-    }
-}
-
-/// A number with four significant digits.
-pub(crate) fn rounded(value: f64) -> String {
-    if value == 0.0 || !value.is_finite() {
-        return value.to_string();
-    }
-    let text = format!("{value:.3e}");
-    let short: f64 = text.parse().unwrap_or(value);
-    if (1e-4..1e6).contains(&short.abs()) { short.to_string() } else { format!("{short:e}") }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn numbers_in_messages_have_four_digits() {
-        for (value, text) in [
-            (0.0, "0"),
-            (1.0, "1"),
-            (-12.345_678, "-12.35"),
-            (0.031_25, "0.03125"),
-            (123_456.0, "123500"),
-            (1.5e-7, "1.5e-7"),
-            (2e30, "2e30"),
-        ] {
-            assert_eq!(rounded(value), text);
-        }
-    }
 
     #[test]
     fn every_published_model_has_a_profile_at_every_probed_surface_albedo() {

@@ -1,39 +1,39 @@
 //! The edge of a shadow on skin and on marble, softened by the light under their surfaces.
-
-mod gpu;
-#[allow(dead_code, reason = "this program uses a part of what is generated")]
 mod materials {
     include!(concat!(env!("OUT_DIR"), "/subsurface.rs"));
 }
-
-use materials::{MATERIALS, Material};
-use subsurface_runtime::{Extent, SubsurfaceInputs, SubsurfacePass, SubsurfaceView, wgpu::TextureFormat};
+use materials::Material;
+use pollster::FutureExt as _;
+use subsurface_runtime::wgpu::{self, TextureFormat::Rgba32Float};
+use subsurface_runtime::{Extent, Readback, SubsurfaceInputs, SubsurfacePass, SubsurfaceView, Target, bytemuck};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let gpu = gpu::Gpu::open()?;
-    let size = Extent::new(64, 64);
+    let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
+    let adapter = instance.request_adapter(&Default::default()).block_on()?;
+    let (device, queue) = adapter.request_device(&Default::default()).block_on()?;
     // A wall 300 mm away, skin above and marble below; its left half lies in shadow.
-    let material = |y| if y < 32 { Material::Skin } else { Material::Marble };
-    let irradiance = &gpu.upload(size, |x, _| if x < 32 { [0.0; 4] } else { [1.0; 4] });
-    let surface = &gpu.upload(size, |_, y| {
-        let [red, green, blue] = MATERIALS[material(y) as usize].surface.surface_albedo;
-        [red, green, blue, material(y).number() as f32]
-    });
-    let depth = &gpu.upload(size, |_, _| [300.0; 4]);
+    let size = Extent::new(64, 64);
+    let texture = |texel: &dyn Fn(usize, usize) -> [f32; 4]| {
+        let texels: Vec<[f32; 4]> = (0..64 * 64).map(|i| texel(i % 64, i / 64)).collect();
+        Target::from_texels(&device, &queue, size, Rgba32Float, "input", bytemuck::cast_slice(&texels))
+    };
+    let irradiance = &texture(&|x, _| [if x < 32 { 0.0 } else { 1.0 }; 4])?.view;
+    let surface = &texture(&|_, y| [Material::Skin, Material::Marble][y / 32].surface_texel())?.view;
+    let depth = &texture(&|_, _| [300.0; 4])?.view;
     let inputs = SubsurfaceInputs { irradiance, surface, depth, depth_stencil: None };
 
-    let mut pass = SubsurfacePass::new(&gpu.device, &materials::kernel(), TextureFormat::Rgba32Float, None);
-    pass.resize(&gpu.device, size, &inputs)?;
-    pass.prepare(&gpu.queue, &SubsurfaceView::orthographic_distances(0.05)); // mm per pixel
-    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    let mut pass = SubsurfacePass::new(&device, &materials::kernel(), Rgba32Float, None);
+    pass.resize(&device, size, &inputs)?;
+    pass.prepare(&queue, &SubsurfaceView::orthographic_distances(0.05)); // mm per pixel
+    let mut encoder = device.create_command_encoder(&Default::default());
     pass.encode(&mut encoder);
-    gpu.queue.submit([encoder.finish()]);
+    let diffused = pass.output().ok_or("resize makes the output")?;
+    let readback = Readback::record(&device, &mut encoder, &diffused.texture);
+    queue.submit([encoder.finish()]);
+    let texels: Vec<[f32; 4]> = bytemuck::pod_collect_to_vec(&readback.wait(&device)?);
     println!("kernel {}", materials::PROVENANCE);
-    let output = pass.output().ok_or("resize makes the output")?;
-    for y in [16, 48] {
-        let [before, after] =
-            [irradiance.texture(), &output.texture].map(|texture| gpu.pixel(texture, [28, y]));
-        println!("{}: {:?} -> {:?}", material(y).name(), before?, after?);
+    for (material, y) in [(Material::Skin, 16), (Material::Marble, 48)] {
+        println!("{}: 0 -> {:?}", material.name(), texels[y * 64 + 28]);
     }
     Ok(())
 }

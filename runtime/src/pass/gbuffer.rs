@@ -4,8 +4,8 @@ use crate::bindings::kernel::{
     BindGroup2, BindGroup3, ENTRY_GBUFFER_FRAGMENT, ENTRY_GBUFFER_VERTEX, GBufferFrame, GBufferVertex,
 };
 use crate::camera::{Bounds, Camera};
-use crate::error::SizeError;
-use crate::geometry::{Geometry, Object, SurfaceDescriptor, TextureError};
+use crate::error::{SizeError, TexelsError};
+use crate::geometry::{Geometry, Object, SurfaceDescriptor};
 use crate::kernel::SubsurfaceKernel;
 use crate::light::{DirectionalLight, LIGHT_CAPACITY};
 use crate::material_table::MaterialTable;
@@ -135,7 +135,7 @@ impl GBufferPass {
         queue: &wgpu::Queue,
         geometry: Geometry,
         surface: &SurfaceDescriptor<'_>,
-    ) -> Result<Object, TextureError> {
+    ) -> Result<Object, TexelsError> {
         Object::new(device, queue, &self.object_layout, geometry, surface)
     }
 

@@ -3,7 +3,7 @@
 #![allow(dead_code, unreachable_pub, reason = "each test binary uses its own part of this module")]
 
 use subsurface_codegen::{Compilation, Compiler};
-use subsurface_runtime::{SubsurfaceKernel, wgpu};
+use subsurface_runtime::{Extent, Readback, SubsurfaceKernel, Target, wgpu};
 
 /// A device and its queue.
 pub struct Gpu {
@@ -38,16 +38,12 @@ impl Gpu {
 
     /// A texture of four f32 per pixel.
     pub fn rgba32(&self, size: [u32; 2], pixel: impl Fn(u32, u32) -> [f32; 4]) -> wgpu::TextureView {
-        let texels: Vec<[f32; 4]> =
-            (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| (x, y))).map(|(x, y)| pixel(x, y)).collect();
-        self.texture(size, wgpu::TextureFormat::Rgba32Float, bytemuck::cast_slice(&texels))
+        self.texture(size, wgpu::TextureFormat::Rgba32Float, bytemuck::cast_slice(&texels(size, pixel)))
     }
 
     /// A texture of one f32 per pixel.
     pub fn r32(&self, size: [u32; 2], pixel: impl Fn(u32, u32) -> f32) -> wgpu::TextureView {
-        let texels: Vec<f32> =
-            (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| (x, y))).map(|(x, y)| pixel(x, y)).collect();
-        self.texture(size, wgpu::TextureFormat::R32Float, bytemuck::cast_slice(&texels))
+        self.texture(size, wgpu::TextureFormat::R32Float, bytemuck::cast_slice(&texels(size, pixel)))
     }
 
     fn texture(
@@ -56,50 +52,17 @@ impl Gpu {
         format: wgpu::TextureFormat,
         bytes: &[u8],
     ) -> wgpu::TextureView {
-        use wgpu::util::DeviceExt as _;
-        let descriptor = wgpu::TextureDescriptor {
-            label: Some("test input"),
-            size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format,
-            usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
-            view_formats: &[],
-        };
-        let order = wgpu::util::TextureDataOrder::LayerMajor;
-        self.device
-            .create_texture_with_data(&self.queue, &descriptor, order, bytes)
-            .create_view(&Default::default())
+        let size = Extent::new(width, height);
+        let made = Target::from_texels(&self.device, &self.queue, size, format, "test input", bytes);
+        made.expect("the texels fit the size").view
     }
 
     /// Bytes of a texture, row by row without padding.
     pub fn read_texture(&self, texture: &wgpu::Texture) -> Vec<u8> {
-        let bytes_per_pixel = texture.format().block_copy_size(None).expect("a colour format");
-        let row = texture.width() * bytes_per_pixel;
-        let padded = row.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
-        let buffer = self.device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some("test readback"),
-            size: u64::from(padded * texture.height()),
-            usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
-            mapped_at_creation: false,
-        });
         let mut encoder = self.device.create_command_encoder(&Default::default());
-        encoder.copy_texture_to_buffer(
-            texture.as_image_copy(),
-            wgpu::TexelCopyBufferInfo {
-                buffer: &buffer,
-                layout: wgpu::TexelCopyBufferLayout {
-                    offset: 0,
-                    bytes_per_row: Some(padded),
-                    rows_per_image: None,
-                },
-            },
-            texture.size(),
-        );
+        let readback = Readback::record(&self.device, &mut encoder, texture);
         self.queue.submit([encoder.finish()]);
-        let bytes = self.map(&buffer);
-        bytes.chunks(padded as usize).flat_map(|line| &line[..row as usize]).copied().collect()
+        readback.wait(&self.device).expect("the device answers")
     }
 
     /// Bytes of a buffer that can be mapped.
@@ -121,4 +84,9 @@ pub fn compile(files: &[(&str, &str)]) -> Compilation {
 pub fn kernel(compilation: &Compilation) -> SubsurfaceKernel {
     let (wgsl, table) = (compilation.wgsl.clone(), compilation.material_table.clone());
     SubsurfaceKernel::new(wgsl, table, compilation.material_names()).expect("a compilation makes a kernel")
+}
+
+/// One value per pixel, rows from the top.
+fn texels<T>([width, height]: [u32; 2], pixel: impl Fn(u32, u32) -> T) -> Vec<T> {
+    (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).map(|(x, y)| pixel(x, y)).collect()
 }
