@@ -50,18 +50,8 @@ impl Target {
         label: &str,
     ) -> Result<Self, SizeError> {
         check_size(device, size)?;
-        let texture = device.create_texture(&wgpu::TextureDescriptor {
-            label: Some(label),
-            size: size.into(),
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format,
-            usage: wgpu::TextureUsages::RENDER_ATTACHMENT
-                | wgpu::TextureUsages::TEXTURE_BINDING
-                | wgpu::TextureUsages::COPY_SRC,
-            view_formats: &[],
-        });
+        let texture =
+            device.create_texture(&descriptor(size, format, wgpu::TextureUsages::RENDER_ATTACHMENT, label));
         let view =
             texture.create_view(&wgpu::TextureViewDescriptor { label: Some(label), ..Default::default() });
         Ok(Self { texture, view })
@@ -87,23 +77,31 @@ impl Target {
         if expected != found {
             return Err(TexelsError::Length { width, height, expected, found });
         }
-        let descriptor = wgpu::TextureDescriptor {
-            label: Some(label),
-            size: size.into(),
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format,
-            usage: wgpu::TextureUsages::TEXTURE_BINDING
-                | wgpu::TextureUsages::COPY_DST
-                | wgpu::TextureUsages::COPY_SRC,
-            view_formats: &[],
-        };
+        let descriptor = descriptor(size, format, wgpu::TextureUsages::COPY_DST, label);
         let order = wgpu::util::TextureDataOrder::LayerMajor;
         let texture = device.create_texture_with_data(queue, &descriptor, order, texels);
         let view =
             texture.create_view(&wgpu::TextureViewDescriptor { label: Some(label), ..Default::default() });
         Ok(Self { texture, view })
+    }
+}
+
+/// One 2-D level that can be read in shaders and copied from, and filled as `filled` says.
+fn descriptor(
+    size: Extent,
+    format: wgpu::TextureFormat,
+    filled: wgpu::TextureUsages,
+    label: &str,
+) -> wgpu::TextureDescriptor<'_> {
+    wgpu::TextureDescriptor {
+        label: Some(label),
+        size: size.into(),
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format,
+        usage: filled | wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_SRC,
+        view_formats: &[],
     }
 }
 
