@@ -273,7 +273,7 @@ fn a_picture_beyond_the_device_is_refused_with_the_limit() {
     assert!((8192..32768).contains(&limit.parse::<u32>().unwrap()), "{text}");
     insta::assert_snapshot!(format!("{before} [limit] per side{after}"), @r"
     error: a frame of 32768×16 pixels is beyond this device's limit: give at most [limit] per side
-      = help: give a --size within the device's limit
+      = help: make the picture smaller: --size times --supersample, or the buffers that are given
     ");
     assert!(!out.exists());
 }

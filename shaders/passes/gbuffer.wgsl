@@ -112,7 +112,7 @@ fn mapped_normal(normal: vec3f, world_position: vec3f, texture_coordinate: vec2f
     let tangent = across_dy * coordinate_dx.x + across_dx * coordinate_dy.x;
     let bitangent = -(across_dy * coordinate_dx.y + across_dx * coordinate_dy.y);
     let longest = max(dot(tangent, tangent), dot(bitangent, bitangent));
-    // Squared metres of texture space per pixel: nothing this small is a frame, only a mesh without coordinates.
+    // (World length × texture coordinate per pixel)²: nothing this small is a frame, only a mesh without coordinates.
     if longest < 1e-30 {
         return normal;
     }
@@ -139,7 +139,9 @@ fn transmitted_irradiance(
     let inside = world_position - light.shadow_normal_offset * normal;
     // Moving in shortens the way to the light, which is to be given back.
     let moved_in_mm = light.shadow_normal_offset * facing_away * light.millimetres_per_world_unit;
-    let across = normalize(cross(light.towards_light, select(vec3f(0.0, 1.0, 0.0), vec3f(1.0, 0.0, 0.0), abs(light.towards_light.y) > 0.9)));
+    // Any axis that is not the light's own spans the disc across its direction.
+    let axis = select(vec3f(0.0, 1.0, 0.0), vec3f(1.0, 0.0, 0.0), abs(light.towards_light.y) > 0.9);
+    let across = normalize(cross(light.towards_light, axis));
     let along = cross(light.towards_light, across);
     // The mean over a small disc hides the steps of the shadow map's texels.
     var thickness_mm = 0.0;
@@ -205,7 +207,8 @@ fn gbuffer_fragment(interpolated: GBufferInterpolated, @builtin(front_facing) fr
         unscattered +=
             arriving * specular_reflection(normal, light.towards_light, towards_camera, reflectance, roughness);
         if transmission > 0.0 {
-            let through = transmitted_irradiance(light, i, interpolated.world_position, smooth_normal, profiles, surface_albedo);
+            let position = interpolated.world_position;
+            let through = transmitted_irradiance(light, i, position, smooth_normal, profiles, surface_albedo);
             unscattered += transmission * through / PI;
         }
     }

@@ -132,13 +132,16 @@ impl Device {
             wgpu::TextureFormat::R32Float => {
                 bytemuck::pod_collect_to_vec::<u8, f32>(&bytes).into_iter().map(|x| [x, x, x, 1.0]).collect()
             }
-            // Half floats: the only other format that is read back.
-            _ => bytes
+            wgpu::TextureFormat::Rgba16Float => bytes
                 .chunks_exact(8)
                 .map(|texel| {
                     std::array::from_fn(|c| half(u16::from_le_bytes([texel[2 * c], texel[2 * c + 1]])))
                 })
                 .collect(),
+            other => {
+                let message = format!("texels of the format {other:?} are not read back");
+                return Err(Failure::new(message, "please report this as a defect"));
+            }
         })
     }
 

@@ -29,5 +29,8 @@ fn kernel(materials: &Compilation) -> Result<SubsurfaceKernel, Failure> {
 
 /// A size that the device refuses.
 fn beyond_device(error: &impl std::error::Error) -> Failure {
-    Failure::new(error.to_string(), "give a --size within the device's limit")
+    Failure::new(
+        error.to_string(),
+        "make the picture smaller: --size times --supersample, or the buffers that are given",
+    )
 }
