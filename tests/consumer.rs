@@ -123,8 +123,8 @@ fn a_crate_outside_the_workspace_swaps_its_model_by_one_word() {
     // One word in the RON: the consumer's own build script and crate, and no other.
     let material = package.join("materials/skin.ron");
     let original = read(&material);
-    assert_eq!(original.matches("exponential_dipole_searchlight").count(), 1);
-    write(&material, &original.replace("exponential_dipole_searchlight", "burley_searchlight"));
+    assert_eq!(original.matches("two_exponential_dipole_searchlight").count(), 1);
+    write(&material, &original.replace("two_exponential_dipole_searchlight", "burley_searchlight"));
     let changed = succeeded(cargo(&package, &["build", "--verbose"]));
     assert_eq!(ran(&changed), ["script consumer", "rustc consumer"], "{}", text(&changed.stderr));
     assert!(text(&changed.stderr).contains("Fresh subsurface-codegen"), "{}", text(&changed.stderr));

@@ -79,7 +79,17 @@ fn accepted_sets_say_nothing() {
 fn a_material_inherits_what_it_does_not_give() {
     let set = load_directory(Path::new("tests/in/pass/every_form")).set.unwrap();
     let names: Vec<&str> = set.materials.iter().map(|material| material.name.as_str()).collect();
-    let expected = ["builtin", "child", "dipole", "dmfp", "everything", "gaussian", "polynomial", "renamed"];
+    let expected = [
+        "builtin",
+        "child",
+        "dipole",
+        "dmfp",
+        "everything",
+        "gaussian",
+        "polynomial",
+        "renamed",
+        "two_exponentials",
+    ];
     assert_eq!(names, expected);
     let (base, child) = (set.get("everything").unwrap(), set.get("child").unwrap());
     assert_eq!(base.docs, ["Everything that can be given.", "", " Indented, with `code`."]);
@@ -114,7 +124,8 @@ fn generated(case: &str, files: &[(&str, &[u8])]) {
     assert!(loaded.set.is_none(), "{case} is accepted");
     assert_well_formed(&loaded);
     let text = loaded.report.render(false).replace(&dir.path().to_string_lossy().replace('\\', "/"), "DIR");
-    assert!(text.lines().all(|line| line.chars().count() < 320), "a line is too long to read");
+    // The longest lists the built-in profiles: 340 characters.
+    assert!(text.lines().all(|line| line.chars().count() < 380), "a line is too long to read");
     assert_blessed(case, &text);
 }
 

@@ -85,7 +85,7 @@ fn every_preset_says_what_it_is() {
 
 #[test]
 fn the_example_of_the_readme_is_what_the_compiler_says() {
-    let text = "Material(\n    profile: \"exponential_dipole_serchlight\",\n    mean_free_path_mm: (1.30, 0.95, -0.67),\n    surface_albedo: (0.83, 0.64, 0.55),\n)\n";
+    let text = "Material(\n    profile: \"two_exponential_dipole_serchlight\",\n    mean_free_path_mm: (1.30, 0.95, -0.67),\n    surface_albedo: (0.83, 0.64, 0.55),\n)\n";
     let report = load_memory([("skin.ron", text)]).report.render(false);
     let readme = std::fs::read_to_string("materials/README.md").unwrap();
     assert!(readme.contains(&report), "materials/README.md should show:\n{report}");

@@ -8,27 +8,39 @@ pub trait Explain: fmt::Display {
     fn help(&self) -> Option<String>;
 }
 
-/// Why a command failed; the process then exits with 1.
+/// Why a command failed; the process then exits with [`exit_code`](Self::exit_code).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Failure {
     message: String,
     help: Option<String>,
+    is_interruption: bool,
 }
 
 impl Failure {
     /// A failure with its remedy.
     pub fn new(message: impl Into<String>, help: impl Into<String>) -> Self {
-        Self { message: message.into(), help: Some(help.into()) }
+        Self { message: message.into(), help: Some(help.into()), is_interruption: false }
+    }
+
+    /// The user broke off, and nothing is lost.
+    pub fn interrupted(message: impl Into<String>, help: impl Into<String>) -> Self {
+        Self { is_interruption: true, ..Self::new(message, help) }
+    }
+
+    /// 1; 130 where the user broke off, as shells have it (128 + SIGINT).
+    pub fn exit_code(&self) -> u8 {
+        if self.is_interruption { 130 } else { 1 }
     }
 
     /// A failure whose text says everything already: a report of diagnostics, with its own `error:` lines.
     pub fn reported(report: impl Into<String>) -> Self {
-        Self { message: report.into(), help: None }
+        Self { message: report.into(), help: None, is_interruption: false }
     }
 
     /// The text for the terminal, in the manner of rustc.
     pub fn render(&self) -> String {
         match &self.help {
+            Some(help) if self.is_interruption => text("interrupted", &self.message, Some(help)),
             Some(help) => text("error", &self.message, Some(help)),
             None => self.message.trim_end().to_owned(),
         }
@@ -45,7 +57,7 @@ impl std::error::Error for Failure {}
 
 impl<E: Explain> From<E> for Failure {
     fn from(error: E) -> Self {
-        Self { message: error.to_string(), help: Some(error.help().unwrap_or_default()) }
+        Self::new(error.to_string(), error.help().unwrap_or_default())
     }
 }
 

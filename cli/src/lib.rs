@@ -11,6 +11,8 @@ pub mod command;
 pub mod draw;
 pub mod failure;
 pub mod picture;
+pub mod plot;
 pub mod progress;
 pub mod scene;
+pub mod table;
 pub mod terminal;

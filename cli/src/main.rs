@@ -10,13 +10,16 @@ use subsurface_cli::failure::Failure;
 fn main() -> ExitCode {
     match run() {
         Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            match error.downcast_ref::<Failure>() {
-                Some(failure) => eprintln!("{}", failure.render()),
-                None => eprintln!("error: {error:#}"),
+        Err(error) => match error.downcast_ref::<Failure>() {
+            Some(failure) => {
+                eprintln!("{}", failure.render());
+                ExitCode::from(failure.exit_code())
             }
-            ExitCode::FAILURE
-        }
+            None => {
+                eprintln!("error: {error:#}");
+                ExitCode::FAILURE
+            }
+        },
     }
 }
 

@@ -95,7 +95,7 @@ fn bust(profile: &str, extra: &[&str]) -> Vec<u8> {
 
 /// A picture by the name of its profile; `plain` has no subsurface pass.
 static BUSTS: LazyLock<Vec<(&str, Vec<u8>)>> = LazyLock::new(|| {
-    let stems = ["gaussian_skin", "burley_searchlight", "liang_2023", "exponential_dipole_searchlight"];
+    let stems = ["gaussian_skin", "burley_searchlight", "liang_2023", "two_exponential_dipole_searchlight"];
     let mut busts: Vec<_> = stems.into_iter().map(|stem| (stem, bust(stem, &[]))).collect();
     busts.push(("plain", bust(stems[3], &["--no-subsurface"])));
     busts
@@ -208,7 +208,7 @@ fn a_contact_sheet_shows_every_tile_and_times_every_pass() {
     let lines: Vec<&str> = stdout.lines().collect();
     assert_eq!(lines[0], ADAPTER.as_ref().unwrap());
     assert_eq!(lines.len(), 7, "{stdout}");
-    let captions = ["no subsurface", "Gaussian sum", "Burley", "polynomial", "exponential + dipole"];
+    let captions = ["no subsurface", "Gaussian sum", "Burley", "polynomial", "two exp. + dipole"];
     for (line, caption) in lines[1..6].iter().zip(captions) {
         let (found, times) = line.split_once(": ").unwrap();
         assert_eq!(found, caption);

@@ -4,6 +4,7 @@
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{format_ident, quote};
 
+use crate::compiler::PROFILE_TABLES_FILE;
 use crate::docs::Docs;
 use crate::identifier::camel_case;
 use crate::layout::{Field, FieldType, Structure, structure};
@@ -24,6 +25,8 @@ pub(crate) struct SetBindings<'a> {
     pub(crate) set: &'a MaterialSet,
     pub(crate) rows: &'a [Value],
     pub(crate) provenance: &'a str,
+    /// Whether the kernel reads tables of profiles.
+    pub(crate) has_tables: bool,
 }
 
 /// Docs of a generated item; `fallback` where the WGSL or RON has none, since generated code must not warn.
@@ -367,6 +370,17 @@ pub(crate) fn set_tokens(
     let rows = bindings.rows.iter().map(|value| literal(module, row, value));
     let row_name = Ident::new(&row.name, Span::call_site());
     let provenance = bindings.provenance;
+    let (tables, with_tables) = if bindings.has_tables {
+        let file = PROFILE_TABLES_FILE;
+        let tables = quote! {
+            /// The tables of tabulated profiles.
+            #[allow(dead_code)]
+            pub static PROFILE_TABLES: &[u8] = include_bytes!(#file);
+        };
+        (tables, quote!(.with_profile_tables(PROFILE_TABLES)))
+    } else {
+        Default::default()
+    };
     quote! {
         /// The materials of the set. `as u32` is the number that the G-buffer's surface target holds.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -406,6 +420,7 @@ pub(crate) fn set_tokens(
         pub const PROVENANCE: &str = #provenance;
         /// The parameter table, by material number.
         pub static MATERIALS: [#row_name; #count] = [#(#rows),*];
+        #tables
         /// The kernel module as WGSL.
         #[allow(dead_code)]
         pub const WGSL: &str = include_str!("subsurface.wgsl");
@@ -416,7 +431,7 @@ pub(crate) fn set_tokens(
                 WGSL,
                 #bytemuck::cast_slice(&MATERIALS),
                 &Material::NAMES,
-            )
+            )#with_tables
         }
     }
 }

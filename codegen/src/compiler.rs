@@ -1,5 +1,7 @@
 //! The compiler: a directory of materials in; WGSL, Rust and a manifest out.
 
+mod runtime_bindings;
+
 use std::path::{Path, PathBuf};
 
 use proc_macro2::TokenStream;
@@ -11,15 +13,23 @@ use crate::bindings::{self, Paths, SetBindings};
 use crate::compose::{Linked, link};
 use crate::diagnostics::{Diagnostic, Report};
 use crate::emit::{Emitted, emit};
-use crate::layout::{bytes, structure};
+use crate::layout::{array_bytes, bytes_of, structure};
 use crate::load::{Loaded, load_directory, load_memory};
 use crate::material::MaterialSet;
 use crate::output::{self, BuildError};
 use crate::reflect::{Reflection, reflect};
 use crate::validate::{Validated, validate};
 
+pub use runtime_bindings::runtime_bindings;
+
 /// Name of the struct that is one row of the parameter table.
 const ROW: &str = "SubsurfaceMaterial";
+
+/// Name of the struct that is one knot of a tabulated profile.
+const KNOT: &str = "TabulatedKnot";
+
+/// Knots that fit a set: 84 MB, within the 128 MiB that WebGPU grants a storage buffer; their numbers are exact as f32.
+const KNOT_LIMIT: usize = 1 << 22;
 
 /// Entry points of the kernel module, by the pass that uses them.
 const SUBSURFACE_ENTRIES: &[&str] = &["subsurface_vertex", "subsurface_fragment", "passthrough_fragment"];
@@ -86,6 +96,8 @@ pub struct Compilation {
     pub set: MaterialSet,
     /// The parameter table, as the bytes of the storage buffer.
     pub material_table: Vec<u8>,
+    /// The tables of tabulated profiles, as the bytes of the second storage buffer; empty where no material uses one.
+    pub profile_tables: Vec<u8>,
     /// SHA-256 of the inputs, hexadecimal.
     pub provenance: String,
     /// Warnings.
@@ -189,17 +201,33 @@ impl Compiler {
         };
         let Kernel { linked, emitted, validated, reflection } = kernel;
         let module = &validated.module;
-        let row =
-            module.types.iter().find(|(_, ty)| ty.name.as_deref() == Some(ROW)).map(|(handle, _)| handle);
+        if emitted.knots.len() > KNOT_LIMIT {
+            let message = format!("{} knots in the tables of one set", emitted.knots.len());
+            report.push(
+                Diagnostic::error(message)
+                    .help(format!("a set holds at most {KNOT_LIMIT}: use wider bins or fewer tables")),
+            );
+            return Err(report);
+        }
+        let named = |name: &str| {
+            module.types.iter().find(|(_, ty)| ty.name.as_deref() == Some(name)).map(|(handle, _)| handle)
+        };
+        let profile_tables =
+            named(KNOT).map(|knot| array_bytes(module, knot, &emitted.knots)).unwrap_or_default();
         let Some((row_handle, row)) =
-            row.and_then(|handle| Some((handle, structure(module, &linked.docs, handle)?)))
+            named(ROW).and_then(|handle| Some((handle, structure(module, &linked.docs, handle)?)))
         else {
             report.push(Diagnostic::error("the kernel has no parameter table").help(DEFECT));
             return Err(report);
         };
         let mut tokens = bindings::set_tokens(
             module,
-            &SetBindings { set: &set, rows: &emitted.rows, provenance: &provenance },
+            &SetBindings {
+                set: &set,
+                rows: &emitted.rows,
+                provenance: &provenance,
+                has_tables: !profile_tables.is_empty(),
+            },
             &row,
             &paths,
         );
@@ -209,8 +237,19 @@ impl Compiler {
         );
         Ok(Compilation {
             rust: bindings::format(&rust_header, tokens),
-            manifest: crate::manifest::manifest(&set, module, &reflection, &provenance),
-            material_table: emitted.rows.iter().flat_map(|value| bytes(module, row_handle, value)).collect(),
+            manifest: crate::manifest::manifest(
+                &set,
+                module,
+                &reflection,
+                &provenance,
+                !profile_tables.is_empty(),
+            ),
+            material_table: emitted
+                .rows
+                .iter()
+                .flat_map(|value| bytes_of(module, row_handle, value))
+                .collect(),
+            profile_tables,
             wgsl: linked.text,
             set,
             provenance,
@@ -296,21 +335,28 @@ impl Compiler {
 
 impl Compilation {
     /// Writes `subsurface.rs`, `subsurface.wgsl` and `subsurface.json` into `directory`, each whole or not at all; a
-    /// file that already holds the text is left alone.
+    /// file that already holds the text is left alone. A set with tabulated profiles adds `subsurface.tables`.
     ///
     /// # Errors
     /// A file that cannot be written.
     pub fn write_to(&self, directory: &Path) -> Result<(), BuildError> {
         for (name, text) in [
-            ("subsurface.wgsl", &self.wgsl),
-            ("subsurface.rs", &self.rust),
-            ("subsurface.json", &self.manifest),
+            ("subsurface.wgsl", self.wgsl.as_bytes()),
+            ("subsurface.rs", self.rust.as_bytes()),
+            ("subsurface.json", self.manifest.as_bytes()),
+            (PROFILE_TABLES_FILE, &self.profile_tables),
         ] {
-            output::write_if_changed(&directory.join(name), text)?;
+            // Most sets have no tables, and need no empty file.
+            if !text.is_empty() {
+                output::write_if_changed(&directory.join(name), text)?;
+            }
         }
         Ok(())
     }
 }
+
+/// File of the tables of tabulated profiles, beside the WGSL.
+pub(crate) const PROFILE_TABLES_FILE: &str = "subsurface.tables";
 
 const DEFECT: &str = "no material file is to blame: please report this as a defect of the compiler";
 
@@ -394,80 +440,6 @@ fn paths(runtime: &str) -> Result<Paths, Box<Diagnostic>> {
             )
         })?;
     Ok(Paths { wgpu: quote!(#runtime::wgpu), bytemuck: quote!(#runtime::bytemuck), runtime })
-}
-
-/// Rust modules `shadow`, `composite` and `kernel` with the typed bindings of the runtime's own passes.
-///
-/// The runtime's build script calls this. `kernel` holds what every set has in common: all but the parameter table.
-///
-/// # Errors
-/// A shader that is not valid; no material is involved.
-pub fn runtime_bindings() -> Result<String, Report> {
-    let paths = Paths { wgpu: quote!(::wgpu), bytemuck: quote!(::bytemuck), runtime: quote!(crate) };
-    let mut tokens = TokenStream::new();
-    for (name, roots) in [
-        ("shadow", &["shadow_vertex"][..]),
-        ("composite", &["composite_vertex", "composite_fragment"]),
-        ("distance", &["distance_vertex", "distance_fragment"]),
-    ] {
-        let mut report = Report::default();
-        let module_name = format!("passes/{name}");
-        let modules: Vec<Module> = LIBRARY
-            .iter()
-            .chain(KERNELS)
-            .chain(PASSES.iter().filter(|pass| pass.name == module_name))
-            .copied()
-            .collect();
-        let header = format!("// Linked by subsurface-codegen from {module_name} and what it calls.\n");
-        let linked = link(&modules, &Default::default(), roots, &header);
-        let linked = linked.map_err(|error| report_of(&error.to_string()))?;
-        let Some(validated) = validate(&linked, &format!("{name}.wgsl"), &mut report) else {
-            return Err(report);
-        };
-        let reflection = reflect(&validated.module, &validated.info, &linked.docs)
-            .map_err(|error| report_of(&error.to_string()))?;
-        let inner =
-            bindings::module_tokens(&validated.module, &linked.docs, &reflection, &paths, |_| true, &[]);
-        let wgsl = &linked.text;
-        let module = quote::format_ident!("{name}");
-        let doc = format!(" Bindings of the {name} pass.");
-        tokens.extend(quote! {
-            #[doc = #doc]
-            pub mod #module {
-                #inner
-                /// The module as WGSL.
-                pub const WGSL: &str = #wgsl;
-            }
-        });
-    }
-
-    // Any set will do: nothing that differs between sets is kept.
-    let sample = "Material(profile: Burley(parametrization: Searchlight), mean_free_path_mm: (1.0, 1.0, 1.0), \
-                  surface_albedo: (0.5, 0.5, 0.5))";
-    let loaded = Compiler::from_memory([("sample.ron", sample)]).load();
-    let mut report = loaded.report;
-    let Some(set) = loaded.set else { return Err(report) };
-    let roots = [SUBSURFACE_ENTRIES, GBUFFER_ENTRIES].concat();
-    let Some(kernel) = Kernel::generate(&set, &[], &roots, "", &mut report) else { return Err(report) };
-    let inner = bindings::module_tokens(
-        &kernel.validated.module,
-        &kernel.linked.docs,
-        &kernel.reflection,
-        &paths,
-        |group| group != 0,
-        &[ROW, "MaterialSurface", "BurleyModel"],
-    );
-    tokens.extend(quote! {
-        /// Bindings that every kernel module has, whatever its materials.
-        pub mod kernel { #inner }
-    });
-    Ok(bindings::format("// Generated by subsurface-codegen from the pass shaders.", tokens))
-}
-
-fn report_of(message: &str) -> Report {
-    let mut report = Report::default();
-    report.push(Diagnostic::error(message).help(DEFECT));
-    report
 }
 
 #[cfg(test)]

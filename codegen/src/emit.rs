@@ -4,7 +4,7 @@
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
-use subsurface_profile::{GaussianSumModel, Model};
+use subsurface_profile::{GaussianSumModel, Model, TabulatedModel};
 
 use crate::compose::Glue;
 use crate::identifier::screaming_case;
@@ -19,6 +19,8 @@ pub(crate) enum ModelKind {
     ExponentialDipole,
     GaussianSum,
     Polynomial,
+    Tabulated,
+    TwoExponentialDipole,
 }
 
 impl ModelKind {
@@ -28,6 +30,8 @@ impl ModelKind {
             Model::ExponentialDipole(_) => Some(Self::ExponentialDipole),
             Model::GaussianSum(_) => Some(Self::GaussianSum),
             Model::Polynomial(_) => Some(Self::Polynomial),
+            Model::Tabulated(_) => Some(Self::Tabulated),
+            Model::TwoExponentialDipole(_) => Some(Self::TwoExponentialDipole),
             _ => None,
         }
     }
@@ -39,6 +43,8 @@ impl ModelKind {
             Self::ExponentialDipole => "exponential_dipole",
             Self::GaussianSum => "gaussian_sum",
             Self::Polynomial => "polynomial",
+            Self::Tabulated => "tabulated",
+            Self::TwoExponentialDipole => "two_exponential_dipole",
         }
     }
 
@@ -48,7 +54,14 @@ impl ModelKind {
             Self::ExponentialDipole => "ExponentialDipoleModel",
             Self::GaussianSum => "GaussianSumModel",
             Self::Polynomial => "PolynomialModel",
+            Self::Tabulated => "TabulatedModel",
+            Self::TwoExponentialDipole => "TwoExponentialDipoleModel",
         }
+    }
+
+    /// Whether the model's functions take the `shape` of its row besides the coefficients.
+    fn has_shape(self) -> bool {
+        self == Self::TwoExponentialDipole
     }
 
     fn constant(self) -> String {
@@ -62,6 +75,8 @@ pub(crate) struct Emitted {
     pub(crate) glue: Glue,
     /// One value per material: fields as in the emitted `SubsurfaceMaterial`.
     pub(crate) rows: Vec<Value>,
+    /// The knots of all tables, as in `TabulatedKnot` of the shaders; empty where the set uses none.
+    pub(crate) knots: Vec<Value>,
     /// Models in use, by number.
     pub(crate) models: Vec<ModelKind>,
 }
@@ -81,12 +96,12 @@ pub(crate) fn emit(set: &MaterialSet) -> Result<Emitted, UnknownModel> {
     }
     let models: Vec<ModelKind> = kinds.iter().copied().collect::<BTreeSet<_>>().into_iter().collect();
 
-    let mut terms = GaussianTerms::default();
+    let mut shared = Shared::default();
     let rows = set
         .materials
         .iter()
         .zip(&kinds)
-        .map(|(material, &kind)| row(material, kind, &models, &mut terms))
+        .map(|(material, &kind)| row(material, kind, &models, &mut shared))
         .collect();
 
     let mut glue = Glue::default();
@@ -94,9 +109,12 @@ pub(crate) fn emit(set: &MaterialSet) -> Result<Emitted, UnknownModel> {
     emit_row(&mut glue.text, &models);
     emit_dispatch(&mut glue.text, &models);
     if models.contains(&ModelKind::GaussianSum) {
-        emit_gaussian_terms(&mut glue, &terms);
+        emit_gaussian_terms(&mut glue, &shared.terms);
     }
-    Ok(Emitted { glue, rows, models })
+    if models.contains(&ModelKind::Tabulated) {
+        glue.text.push_str(TABULATED_KNOTS);
+    }
+    Ok(Emitted { glue, rows, knots: shared.knots.values, models })
 }
 
 /// Number of `kind` among the models in use.
@@ -105,7 +123,7 @@ fn number(models: &[ModelKind], kind: ModelKind) -> u32 {
     position.and_then(|p| u32::try_from(p).ok()).expect("a row's model is among the models in use")
 }
 
-fn row(material: &Material, kind: ModelKind, models: &[ModelKind], terms: &mut GaussianTerms) -> Value {
+fn row(material: &Material, kind: ModelKind, models: &[ModelKind], shared: &mut Shared) -> Value {
     let surface = Value::Struct(vec![
         ("length_mm", Value::vector(material.length_mm)),
         ("model", Value::U32(number(models, kind))),
@@ -114,13 +132,13 @@ fn row(material: &Material, kind: ModelKind, models: &[ModelKind], terms: &mut G
         ("roughness", Value::scalar(material.roughness)),
         ("transmission_strength", Value::scalar(material.transmission_strength)),
     ]);
-    let mut fields = vec![("surface", surface), (kind.stem(), coefficients(material, terms))];
+    let mut fields = vec![("surface", surface), (kind.stem(), coefficients(material, shared))];
     // Models are told apart by number; the coefficients of the others stay zero.
     fields.sort_by_key(|(name, _)| *name != "surface");
     Value::Struct(fields)
 }
 
-fn coefficients(material: &Material, terms: &mut GaussianTerms) -> Value {
+fn coefficients(material: &Material, shared: &mut Shared) -> Value {
     match &material.profile.model {
         Model::Burley(burley) => Value::Struct(vec![
             ("constant", Value::scalar(burley.shape.constant)),
@@ -134,6 +152,21 @@ fn coefficients(material: &Material, terms: &mut GaussianTerms) -> Value {
             ("exponential_length", Value::vector(model.exponential_length)),
             ("dipole_depth", Value::vector(model.dipole_depth)),
             ("dipole_attenuation", Value::vector(model.dipole_attenuation)),
+        ]),
+        Model::TwoExponentialDipole(model) => Value::Struct(vec![
+            ("exponential_weight", Value::vector(model.exponential_weight)),
+            ("exponential_length", Value::vector(model.exponential_length)),
+            ("dipole_depth", Value::vector(model.dipole_depth)),
+            ("dipole_attenuation", Value::vector(model.dipole_attenuation)),
+            (
+                "shape",
+                Value::vector([
+                    model.short_weight,
+                    model.short_length,
+                    model.second_weight,
+                    model.second_depth,
+                ]),
+            ),
         ]),
         Model::Polynomial(model) => Value::Struct(vec![
             ("a_linear", Value::scalar(model.a.linear)),
@@ -149,12 +182,70 @@ fn coefficients(material: &Material, terms: &mut GaussianTerms) -> Value {
             ("c_offset", Value::scalar(model.c.offset)),
         ]),
         Model::GaussianSum(model) => {
-            let (first, count) = terms.add(model, &material.profile);
+            let (first, count) = shared.terms.add(model, &material.profile);
             Value::Struct(vec![("first_term", Value::U32(first)), ("term_count", Value::U32(count))])
         }
+        Model::Tabulated(model) => Value::Struct(vec![
+            ("first_knot", Value::U32(shared.knots.add(model))),
+            ("knot_count", Value::U32(number_of(model.radii().len()))),
+            ("table_count", Value::U32(number_of(model.surface_albedos().len()))),
+        ]),
         _ => Value::Struct(Vec::new()),
     }
 }
+
+/// What several rows may point into.
+#[derive(Debug, Default)]
+struct Shared {
+    terms: GaussianTerms,
+    knots: TabulatedKnots,
+}
+
+/// Knots of all tables of a set; equal models share theirs.
+#[derive(Debug, Default)]
+struct TabulatedKnots {
+    models: Vec<(TabulatedModel, u32)>,
+    values: Vec<Value>,
+}
+
+impl TabulatedKnots {
+    /// First knot of `model`.
+    fn add(&mut self, model: &TabulatedModel) -> u32 {
+        if let Some((_, first)) = self.models.iter().find(|(known, _)| known == model) {
+            return *first;
+        }
+        let first = number_of(self.values.len());
+        self.models.push((model.clone(), first));
+        let radii = model.radii().len();
+        let surface_albedos = model.surface_albedos().flat_map(|a| std::iter::repeat_n(a, radii));
+        self.values.extend(model.knots().zip(surface_albedos).map(|(knot, surface_albedo)| {
+            Value::Struct(vec![
+                ("radius", Value::scalar(knot.radius)),
+                ("cdf", Value::scalar(knot.cdf)),
+                ("density", Value::scalar(knot.density)),
+                ("mean_density", Value::scalar(knot.mean_density)),
+                ("surface_albedo", Value::scalar(surface_albedo)),
+            ])
+        }));
+        first
+    }
+}
+
+/// A number of knots; a model has at most `TabulatedModel::MAXIMUM_ENTRIES` of them, a set at most 2048 models.
+fn number_of(knots: usize) -> u32 {
+    u32::try_from(knots).expect("2048 models of 2^18 knots are fewer than 2^32")
+}
+
+/// How the shaders reach the knots: in a buffer, since a variable would be copied to every invocation.
+const TABULATED_KNOTS: &str = "\
+/// The knots of all tables: table by table, by surface albedo, by radius.
+@group(0) @binding(1) var<storage, read> profile_tables: array<TabulatedKnot>;
+
+/// Knot `index` of all tables.
+fn tabulated_knot(index: u32) -> TabulatedKnot {
+    return profile_tables[index];
+}
+";
 
 /// Terms of all Gaussian sums of a set; equal sums share theirs.
 #[derive(Debug, Default)]
@@ -248,7 +339,8 @@ fn emit_dispatch(text: &mut String, models: &[ModelKind]) {
             ModelKind::GaussianSum => "channel",
             _ => "surface_albedo, length_mm",
         };
-        format!("Profile({}, {stem}_profile(row.{stem}, {arguments}))", model.constant())
+        let shape = if model.has_shape() { format!("row.{stem}.shape") } else { "vec4f()".to_owned() };
+        format!("Profile({}, {stem}_profile(row.{stem}, {arguments}), {shape})", model.constant())
     });
     for (function, argument, docs) in [
         ("area_pdf", "radius_mm", "R(r) / A per unit area, mm⁻². May diverge at r = 0."),
@@ -259,7 +351,8 @@ fn emit_dispatch(text: &mut String, models: &[ModelKind]) {
         let _ = writeln!(text, "/// {docs}");
         let head = format!("fn profile_{function}(profile: Profile, {argument}: f32) -> f32");
         emit_switch(text, &head, "profile.model", models, |model| {
-            format!("{}_{function}(profile.coefficients, {argument})", model.stem())
+            let shape = if model.has_shape() { "profile.shape, " } else { "" };
+            format!("{}_{function}(profile.coefficients, {shape}{argument})", model.stem())
         });
     }
 }

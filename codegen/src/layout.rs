@@ -103,8 +103,17 @@ fn field_type(module: &Module, handle: Handle<Type>) -> Option<FieldType> {
 }
 
 /// The bytes of `value` in the layout of the struct `handle`; fields that the value does not name are zero.
-pub(crate) fn bytes(module: &Module, handle: Handle<Type>, value: &Value) -> Vec<u8> {
+pub(crate) fn bytes_of(module: &Module, handle: Handle<Type>, value: &Value) -> Vec<u8> {
+    array_bytes(module, handle, std::slice::from_ref(value))
+}
+
+/// The bytes of an array of such values.
+pub(crate) fn array_bytes(module: &Module, handle: Handle<Type>, values: &[Value]) -> Vec<u8> {
     let Some(layout) = structure(module, &Docs::default(), handle) else { return Vec::new() };
+    values.iter().flat_map(|value| encoded(module, &layout, value)).collect()
+}
+
+fn encoded(module: &Module, layout: &Structure, value: &Value) -> Vec<u8> {
     let mut bytes = vec![0; layout.size as usize];
     for field in &layout.fields {
         let Some(value) = value.field(&field.name) else { continue };
@@ -114,7 +123,7 @@ pub(crate) fn bytes(module: &Module, handle: Handle<Type>, value: &Value) -> Vec
             (Value::Vector(components), FieldType::Vector { .. }) => {
                 components.iter().flat_map(|component| component.to_le_bytes()).collect()
             }
-            (Value::Struct(_), FieldType::Struct(inner)) => self::bytes(module, *inner, value),
+            (Value::Struct(_), FieldType::Struct(inner)) => bytes_of(module, *inner, value),
             _ => unreachable!("the emitter writes {} with the type it declares", field.name),
         };
         let start = field.offset as usize;

@@ -36,13 +36,15 @@ mod schema;
 pub mod source;
 mod suggestion;
 mod syntax;
+mod table;
 mod validate;
 mod value;
 
 pub use compiler::{Compilation, Compiler, Pass, runtime_bindings};
 pub use diagnostics::{Diagnostic, Report, Severity};
 pub use load::{
-    Checked, Loaded, LoadedProfile, check_paths, load_directory, load_memory, load_profile, load_profile_file,
+    Checked, Loaded, LoadedProfile, LoadedTable, check_paths, load_directory, load_memory, load_profile,
+    load_profile_file, load_radial_table,
 };
 pub use material::{Material, MaterialSet, ResolvedProfile};
 pub use output::BuildError;

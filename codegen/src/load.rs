@@ -1,6 +1,7 @@
 //! Reads material files from disk or memory, and reports on them.
 
 mod reader;
+mod tables;
 
 use std::path::{Path, PathBuf};
 
@@ -14,8 +15,12 @@ use crate::source::{FileId, Span, Spanned};
 use crate::suggestion::list;
 use crate::syntax;
 
+pub use crate::table::LARGEST_TABLE;
 pub use reader::LARGEST_FILE;
 use reader::Reader;
+pub use tables::LoadedTable;
+use tables::TablesBeside;
+pub use tables::load_radial_table;
 
 /// Version of the grammar of material files that this crate reads: the largest `version` it accepts.
 pub const SCHEMA_VERSION: u32 = VERSION;
@@ -105,7 +110,7 @@ pub fn load_profile(dir: &Path, stem: &str) -> LoadedProfile {
     LoadedProfile { profile, report, files_read }
 }
 
-/// Reports on directories of materials, single material files and single profile files.
+/// Reports on directories of materials, single material files, single profile files and tables (`.csv`).
 ///
 /// A single material is checked with the bases and profiles that it names; errors in files that it does not use are
 /// left out. A file in a folder named `profiles` is a profile, as is one whose value is not `Material(…)`.
@@ -129,6 +134,10 @@ pub fn check_paths(paths: &[PathBuf]) -> Checked {
 }
 
 fn check_file(reader: &mut Reader, path: &Path) {
+    if path.extension().is_some_and(|extension| extension == "csv") {
+        tables::check(reader, path);
+        return;
+    }
     let folder = path.parent().unwrap_or_else(|| Path::new(""));
     let in_profiles = folder.file_name().is_some_and(|name| name == PROFILES);
     let Some(file) = reader.read(path) else { return };
@@ -183,7 +192,7 @@ fn load_set(reader: &mut Reader, dir: &Path) -> Resolution {
             Diagnostic::error(format!("{shown} has no materials"))
                 .help("add a file `NAME.ron`, one for each material")
                 .help(
-                    "for example `Material(profile: \"exponential_dipole_searchlight\", \
+                    "for example `Material(profile: \"two_exponential_dipole_searchlight\", \
                      mean_free_path_mm: (1.30, 0.95, 0.67), surface_albedo: (0.83, 0.64, 0.55))`",
                 ),
         );
@@ -198,7 +207,8 @@ fn resolve_set(reader: &mut Reader, paths: &[PathBuf], profiles: &Path) -> Resol
         let stem = stem(path);
         let material = reader.read(path).and_then(|file| {
             let text = reader.text(file);
-            let mut decoder = Decoder::default();
+            let mut tables = TablesBeside::new(reader, path);
+            let mut decoder = Decoder::with_tables(&mut tables);
             let material = match syntax::parse(file, &text) {
                 Ok(document) => decode_material(&mut decoder, file, &stem, &document),
                 Err(error) => {
@@ -252,9 +262,10 @@ fn read_profiles(reader: &mut Reader, folder: &Path, files: &mut Files) -> Vec<D
     errors
 }
 
-fn read_profile(reader: &Reader, file: FileId, path: &Path) -> (ProfileFile, Vec<Diagnostic>) {
+fn read_profile(reader: &mut Reader, file: FileId, path: &Path) -> (ProfileFile, Vec<Diagnostic>) {
     let text = reader.text(file);
-    let mut decoder = Decoder::default();
+    let mut tables = TablesBeside::new(reader, path);
+    let mut decoder = Decoder::with_tables(&mut tables);
     let stem = stem(path);
     let profile = match syntax::parse(file, &text) {
         Ok(document) => decode_profile_file(&mut decoder, file, stem, &document),
@@ -293,8 +304,8 @@ fn load_named(reader: &mut Reader, folder: &Path, name: &Spanned<String>) -> Opt
     let errors = read_profiles(reader, folder, &mut files);
     let chain = chain(&files, &name.value);
     for error in errors {
-        let is_passed = |(span, _): &(Span, String)| chain.files.contains(&span.file);
-        if error.primary.as_ref().is_some_and(is_passed) {
+        let mut places = error.primary.iter().chain(&error.secondary);
+        if places.any(|(span, _)| chain.files.contains(&span.file)) {
             reader.report.push(error);
         }
     }

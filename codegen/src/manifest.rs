@@ -3,6 +3,7 @@
 use naga::Module;
 use serde_json::{Value, json};
 
+use crate::compiler::PROFILE_TABLES_FILE;
 use crate::docs::Docs;
 use crate::layout::{FieldType, structure};
 use crate::material::MaterialSet;
@@ -16,6 +17,7 @@ pub(crate) fn manifest(
     module: &Module,
     reflection: &Reflection,
     provenance: &str,
+    has_tables: bool,
 ) -> String {
     let materials: Vec<Value> = set
         .materials
@@ -66,7 +68,7 @@ pub(crate) fn manifest(
             json!({ "name": structure.name, "size": structure.size, "fields": fields })
         })
         .collect();
-    let manifest = json!({
+    let mut manifest = json!({
         "version": MANIFEST_VERSION,
         "provenance": provenance,
         "wgsl": "subsurface.wgsl",
@@ -75,6 +77,9 @@ pub(crate) fn manifest(
         "bind_groups": groups,
         "structs": structures,
     });
+    if has_tables {
+        manifest["profile_tables"] = json!(PROFILE_TABLES_FILE);
+    }
     format!("{manifest:#}\n")
 }
 

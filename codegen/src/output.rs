@@ -33,10 +33,10 @@ impl From<Report> for BuildError {
     }
 }
 
-/// Writes `text` to `path` through a temporary file beside it, unless the file holds that text already: a new
+/// Writes `contents` to `path` through a temporary file beside it, unless the file holds them already: a new
 /// modification time would make Cargo rebuild what depends on it.
-pub(crate) fn write_if_changed(path: &Path, text: &str) -> Result<(), BuildError> {
-    if std::fs::read(path).is_ok_and(|old| old == text.as_bytes()) {
+pub(crate) fn write_if_changed(path: &Path, contents: &[u8]) -> Result<(), BuildError> {
+    if std::fs::read(path).is_ok_and(|old| old == contents) {
         return Ok(());
     }
     let failed = |source| BuildError::Write { path: path.to_owned(), source };
@@ -47,7 +47,7 @@ pub(crate) fn write_if_changed(path: &Path, text: &str) -> Result<(), BuildError
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
     let mut file = builder.tempfile_in(folder).map_err(failed)?;
-    file.write_all(text.as_bytes()).map_err(failed)?;
+    file.write_all(contents).map_err(failed)?;
     file.persist(path).map_err(|error| failed(error.error))?;
     Ok(())
 }
@@ -63,7 +63,7 @@ mod tests {
     fn a_file_is_as_readable_as_any_other() {
         let folder = tempfile::tempdir().unwrap();
         let (ours, usual) = (folder.path().join("ours"), folder.path().join("usual"));
-        write_if_changed(&ours, "x").unwrap();
+        write_if_changed(&ours, b"x").unwrap();
         // What the system gives a new file under the umask of whoever runs this.
         fs::write(&usual, "x").unwrap();
         let mode = |path| fs::metadata(path).unwrap().permissions().mode();

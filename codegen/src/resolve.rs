@@ -103,7 +103,9 @@ impl Resolution {
 
     /// Adds to each error within a profile file the materials that use it.
     pub(crate) fn name_users(&self, mut diagnostic: Diagnostic) -> Diagnostic {
-        let users = diagnostic.primary.as_ref().and_then(|(span, _)| self.users.get(&span.file));
+        // An error in a table has its second place in the profile that names the table.
+        let mut places = diagnostic.primary.iter().chain(&diagnostic.secondary);
+        let users = places.find_map(|(span, _)| self.users.get(&span.file));
         if let Some(users) = users {
             let shown = users.len().min(MOST_USERS);
             for (index, (name, span)) in users.iter().take(shown).enumerate() {
@@ -278,7 +280,7 @@ impl Resolution {
                 inherited.profile.is_absent(),
                 "profile",
                 format!(
-                    "add `profile: \"exponential_dipole_searchlight\"`, or another: the profiles are {}",
+                    "add `profile: \"two_exponential_dipole_searchlight\"`, or another: the profiles are {}",
                     profiles()
                 ),
             ),

@@ -12,8 +12,8 @@ pub(crate) enum Value {
 }
 
 impl Value {
-    /// A vector of three channels or coefficients, rounded to f32.
-    pub(crate) fn vector(components: [f64; 3]) -> Self {
+    /// A vector of channels or coefficients, rounded to f32.
+    pub(crate) fn vector<const N: usize>(components: [f64; N]) -> Self {
         Self::Vector(components.iter().map(|&component| single(component)).collect())
     }
 

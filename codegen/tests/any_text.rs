@@ -4,7 +4,7 @@ use proptest::prelude::*;
 use subsurface_codegen::{Loaded, load_memory};
 
 /// Pieces that material files are made of, and some that they are not.
-const PIECES: [&str; 64] = [
+const PIECES: [&str; 66] = [
     "Material",
     "(",
     ")",
@@ -48,6 +48,8 @@ const PIECES: [&str; 64] = [
     "variance_mm2",
     "weight",
     "ExponentialDipole",
+    "TwoExponentialDipole",
+    "short_weight",
     "entry",
     "Searchlight",
     "0",
@@ -94,6 +96,37 @@ fn damaged() -> impl Strategy<Value = String> {
     })
 }
 
+/// What cells of tables hold, and some that they do not.
+fn table_cell() -> impl Strategy<Value = String> {
+    const CELLS: [&str; 20] = [
+        "surface_albedo",
+        "r",
+        "r_lo",
+        "r_hi",
+        "reflectance",
+        "r_reflectance",
+        "radial_reflectance",
+        "standard_error",
+        "0",
+        "0.5",
+        "1",
+        "2",
+        "3e-1",
+        "-1",
+        "NaN",
+        "1e999",
+        "",
+        "\"",
+        "# é",
+        "\r",
+    ];
+    prop_oneof![
+        3 => prop::sample::select(CELLS.to_vec()).prop_map(str::to_owned),
+        2 => any::<f64>().prop_map(|number| format!("{number:?}")),
+        2 => (0.0..1.0f64).prop_map(|number| format!("{number:?}")),
+    ]
+}
+
 /// The laws of any result.
 fn check(loaded: &Loaded) {
     assert_eq!(loaded.set.is_none(), loaded.report.has_errors());
@@ -123,6 +156,16 @@ proptest! {
     #[test]
     fn random_bytes(bytes in prop::collection::vec(any::<u8>(), 0..200)) {
         check(&load_memory([("skin.ron", &bytes), ("profiles/p.ron", &bytes)]));
+    }
+
+    #[test]
+    fn random_tables(lines in prop::collection::vec(prop::collection::vec(table_cell(), 0..5), 0..12), bytes in prop::collection::vec(any::<u8>(), 0..200)) {
+        let material = "Material(profile: Tabulated(file: \"t.csv\"), mean_free_path_mm: (1, 1, 1), surface_albedo: (1, 0, 0.5))";
+        let rows: Vec<String> = lines.iter().map(|cells| cells.join(",")).collect();
+        let headed = format!("surface_albedo,r,r_reflectance\n{}", rows.join("\n"));
+        for csv in [rows.join("\n").into_bytes(), headed.into_bytes(), bytes] {
+            check(&load_memory([("skin.ron", material.as_bytes()), ("t.csv", &csv)]));
+        }
     }
 
     #[test]
@@ -158,7 +201,12 @@ proptest! {
              dipole_depth: ({g}, {h}, {i}), dipole_attenuation: ({j}, {k}, {l}))"
         );
         let rest = "mean_free_path_mm: (1, 1, 1), surface_albedo: (0.5, 0.5, 0.5)";
-        for model in [polynomial, dipole] {
+        let two = format!(
+            "TwoExponentialDipole(exponential_weight: ({a}, {b}, {c}, {d}), exponential_length: ({e}, {f}, {g}, {h}), \
+             dipole_depth: ({i}, {j}, {k}, {l}), dipole_attenuation: ({a}, {e}, {i}, {l}), short_weight: {a}, \
+             short_length: {b}, second_weight: {c}, second_depth: {d})"
+        );
+        for model in [polynomial, dipole, two] {
             check(&load_memory([("skin.ron", format!("Material(profile: {model}, {rest})"))]));
         }
     }

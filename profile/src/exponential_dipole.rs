@@ -2,6 +2,7 @@
 
 use std::f64::consts::PI;
 
+use crate::dipole_source::DipoleSource;
 use crate::inverse::increasing_root;
 use crate::model_error::require_finite;
 use crate::radial_profile::{legal_radius, legal_u};
@@ -75,7 +76,7 @@ impl ExponentialDipoleModel {
             mean_free_path_mm: medium.length_mm(),
             weight,
             length,
-            dipole: Dipole { depth, attenuation },
+            dipole: DipoleSource { depth, attenuation },
         })
     }
 
@@ -93,62 +94,6 @@ impl ExponentialDipoleModel {
     }
 }
 
-/// The dipole's part of the energy, at mean free path 1.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Dipole {
-    /// z > 0.
-    depth: f64,
-    /// s ≥ 0.
-    attenuation: f64,
-}
-
-impl Dipole {
-    /// t = ρ/z - 1 = (√(n² + 1) - 1), n = r/z, without the cancellation and without overflow.
-    fn excess(&self, r: f64) -> f64 {
-        let n = r / self.depth;
-        // Above 2²⁷ the 1 is below the last place of n², and further up n·n overflows. t stays finite: s t is 0·∞
-        // at A = 1 otherwise.
-        if n > 1e9 { (n - 1.0).clamp(0.0, f64::MAX) } else { n * n / (1.0 + 1f64.hypot(n)) }
-    }
-
-    /// -ln of the tail: ln(ρ/z) + s(ρ - z) = ln(1 + t) + s z t.
-    fn log_tail(&self, excess: f64) -> f64 {
-        -(excess.ln_1p() + self.attenuation * self.depth * excess)
-    }
-
-    /// R/A per unit area, which is finite at r = 0: (1 + sρ)z e^(-s(ρ - z))/(2πρ³).
-    fn area_pdf(&self, r: f64) -> f64 {
-        let t = self.excess(r);
-        let z_over_rho = 1.0 / (1.0 + t);
-        let slope = z_over_rho + self.attenuation * self.depth;
-        z_over_rho * slope * self.log_tail(t).exp() / (2.0 * PI * self.depth * self.depth)
-    }
-
-    /// z r (1 + sρ) e^(-s(ρ - z))/ρ³, ordered so that no power of a large ρ overflows.
-    fn radial_pdf(&self, r: f64) -> f64 {
-        let t = self.excess(r);
-        let z_over_rho = 1.0 / (1.0 + t);
-        let slope = z_over_rho + self.attenuation * self.depth;
-        let r_over_rho = r / r.hypot(self.depth);
-        r_over_rho * slope * self.log_tail(t).exp() / self.depth
-    }
-
-    /// The radius beyond which the fraction e^(`log_q`) is left.
-    ///
-    /// With p = ln(1 + t), the equation p + s z (e^p - 1) = -ln q is increasing and convex, so that Newton's
-    /// method converges monotonically from above. (Its solution is Lambert's W, which overflows for small s.)
-    fn radius_beyond(&self, log_q: f64) -> f64 {
-        let sz = self.attenuation * self.depth;
-        let target = -log_q;
-        // Each of the two terms alone bounds p.
-        let upper = if sz > 0.0 { target.min((target / sz).ln_1p()) } else { target };
-        let value_and_slope = |p: f64| (p + sz * p.exp_m1() - target, 1.0 + sz * p.exp());
-        let p = increasing_root(value_and_slope, [0.0, upper], upper, 0.0);
-        let t = p.exp_m1();
-        self.depth * (t * (2.0 + t)).sqrt()
-    }
-}
-
 /// The member of [`ExponentialDipoleModel`] that belongs to one medium.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExponentialDipoleProfile {
@@ -158,7 +103,7 @@ pub struct ExponentialDipoleProfile {
     weight: f64,
     /// d > 0 at mean free path 1.
     length: f64,
-    dipole: Dipole,
+    dipole: DipoleSource,
 }
 
 impl ExponentialDipoleProfile {
@@ -188,13 +133,13 @@ impl ExponentialDipoleProfile {
 
     fn unit_cdf(&self, r: f64) -> f64 {
         let exponential = -(-r / self.length).exp_m1();
-        let dipole = -self.dipole.log_tail(self.dipole.excess(r)).exp_m1();
+        let dipole = self.dipole.cdf(r);
         (self.weight * exponential + (1.0 - self.weight) * dipole).clamp(0.0, 1.0)
     }
 
     fn unit_tail(&self, r: f64) -> f64 {
         let exponential = (-r / self.length).exp();
-        let dipole = self.dipole.log_tail(self.dipole.excess(r)).exp();
+        let dipole = self.dipole.tail(r);
         (self.weight * exponential + (1.0 - self.weight) * dipole).clamp(0.0, 1.0)
     }
 
@@ -304,18 +249,6 @@ mod tests {
             // The tail is then (1 - w) z/r.
             let expected = (1.0 - p.exponential_weight()) * p.dipole_depth_mm() / 1e12;
             assert!((p.radial_tail(1e12) / expected - 1.0).abs() < 1e-14);
-        }
-    }
-
-    #[test]
-    fn the_dipole_alone_inverts_where_lambert_overflows() {
-        for attenuation in [0.0, 1e-300, 1e-6, 1.0, 1e3] {
-            let dipole = Dipole { depth: 2.0, attenuation };
-            for log_q in [-1e-300, -1e-9, -0.1, -1.0, -36.7] {
-                let there = dipole.log_tail(dipole.excess(dipole.radius_beyond(log_q)));
-                // -ln q grows at most as r does, so the roundings of r remain roundings; squares double them.
-                assert!((there / log_q - 1.0).abs() < 1e-14, "s = {attenuation}, ln q = {log_q}: {there}");
-            }
         }
     }
 

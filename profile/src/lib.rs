@@ -7,7 +7,7 @@
 //! ```
 //! use subsurface_profile::{Channel, Medium, Model};
 //!
-//! let model = Model::published("exponential_dipole_searchlight").ok_or("no such model")?;
+//! let model = Model::published("two_exponential_dipole_searchlight").ok_or("no such model")?;
 //! let skin = Medium::new(0.83, 1.30)?; // surface albedo, mean free path in mm
 //! let profile = model.profile(skin, Channel::Red)?;
 //!
@@ -38,12 +38,18 @@
 //!   Fitting", Journal of Software 34(8).
 //! - \[CB15\] Christensen, Burley 2015, "Approximate Reflectance Profiles for Efficient Subsurface Scattering",
 //!   Pixar Technical Memo 15-04.
+//! - \[J01\] Jensen, Marschner, Levoy, Hanrahan 2001, "A Practical Model for Subsurface Light Transport",
+//!   SIGGRAPH.
 //! - \[GG3\] d'Eon, Luebke 2007, "Advanced Techniques for Realistic Real-Time Skin Rendering", GPU Gems 3, ch. 14.
 
 mod burley;
 mod channel;
+mod deviation;
+mod dipole_source;
 mod edge_spread;
 mod exponential_dipole;
+#[cfg(feature = "fit")]
+pub mod fit;
 mod gaussian_sum;
 mod inverse;
 mod length;
@@ -52,11 +58,15 @@ mod model;
 mod model_error;
 mod polynomial;
 pub mod quadrature;
+mod radial_data;
 mod radial_profile;
 pub mod single_scattering_albedo;
+mod tabulated;
+mod two_exponential_dipole;
 
 pub use burley::{BurleyModel, BurleyProfile, BurleyShape};
 pub use channel::Channel;
+pub use deviation::{Deviation, SquaredError, l1, mean_relative_error};
 pub use edge_spread::EdgeSpread;
 pub use exponential_dipole::{ExponentialDipoleModel, ExponentialDipoleProfile};
 pub use gaussian_sum::{GaussianSumModel, GaussianSumProfile, GaussianTerm};
@@ -65,4 +75,7 @@ pub use medium::{Medium, MediumError};
 pub use model::Model;
 pub use model_error::ModelError;
 pub use polynomial::{PolynomialA, PolynomialB, PolynomialC, PolynomialModel, PolynomialProfile};
+pub use radial_data::{RadialData, RadialDataError, RadialRow};
 pub use radial_profile::RadialProfile;
+pub use tabulated::{TabulatedError, TabulatedKnot, TabulatedModel, TabulatedProfile};
+pub use two_exponential_dipole::{TwoExponentialDipoleModel, TwoExponentialDipoleProfile};

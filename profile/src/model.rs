@@ -2,7 +2,7 @@
 
 use crate::{
     BurleyModel, Channel, ExponentialDipoleModel, GaussianSumModel, Length, Medium, ModelError,
-    PolynomialModel, RadialProfile,
+    PolynomialModel, RadialProfile, TabulatedModel, TwoExponentialDipoleModel,
 };
 
 /// A family of radial profiles, given by its coefficients.
@@ -17,11 +17,15 @@ pub enum Model {
     GaussianSum(GaussianSumModel),
     /// An exponential plus a dipole.
     ExponentialDipole(ExponentialDipoleModel),
+    /// Tables by surface albedo.
+    Tabulated(TabulatedModel),
+    /// Two exponentials plus a dipole of two sources.
+    TwoExponentialDipole(TwoExponentialDipoleModel),
 }
 
 impl Model {
     /// The stems that [`published`](Self::published) knows.
-    pub const PUBLISHED: [&'static str; 8] = [
+    pub const PUBLISHED: [&'static str; 12] = [
         "burley_searchlight",
         "burley_diffuse",
         "burley_dmfp",
@@ -30,6 +34,10 @@ impl Model {
         "gaussian_skin",
         "exponential_dipole_searchlight",
         "exponential_dipole_diffuse",
+        "two_exponential_dipole_searchlight",
+        "two_exponential_dipole_diffuse",
+        "two_exponential_dipole_searchlight_eta_1_4",
+        "two_exponential_dipole_diffuse_eta_1_4",
     ];
 
     /// A published set of coefficients by its stem, one of [`PUBLISHED`](Self::PUBLISHED).
@@ -45,6 +53,18 @@ impl Model {
             }
             "exponential_dipole_searchlight" => Model::ExponentialDipole(ExponentialDipoleModel::SEARCHLIGHT),
             "exponential_dipole_diffuse" => Model::ExponentialDipole(ExponentialDipoleModel::DIFFUSE),
+            "two_exponential_dipole_searchlight" => {
+                Model::TwoExponentialDipole(TwoExponentialDipoleModel::SEARCHLIGHT)
+            }
+            "two_exponential_dipole_diffuse" => {
+                Model::TwoExponentialDipole(TwoExponentialDipoleModel::DIFFUSE)
+            }
+            "two_exponential_dipole_searchlight_eta_1_4" => {
+                Model::TwoExponentialDipole(TwoExponentialDipoleModel::SEARCHLIGHT_ETA_1_4)
+            }
+            "two_exponential_dipole_diffuse_eta_1_4" => {
+                Model::TwoExponentialDipole(TwoExponentialDipoleModel::DIFFUSE_ETA_1_4)
+            }
             _ => return None,
         })
     }
@@ -58,6 +78,8 @@ impl Model {
             Model::Polynomial(_) => PolynomialModel::LENGTH,
             Model::GaussianSum(_) => GaussianSumModel::LENGTH,
             Model::ExponentialDipole(_) => ExponentialDipoleModel::LENGTH,
+            Model::Tabulated(_) => TabulatedModel::LENGTH,
+            Model::TwoExponentialDipole(_) => TwoExponentialDipoleModel::LENGTH,
         }
     }
 
@@ -74,6 +96,9 @@ impl Model {
             Model::Polynomial(model) => model.collect_errors(&mut errors),
             Model::GaussianSum(model) => model.collect_errors(&mut errors),
             Model::ExponentialDipole(model) => model.collect_errors(&mut errors),
+            // Checked when it was made.
+            Model::Tabulated(_) => {}
+            Model::TwoExponentialDipole(model) => model.collect_errors(&mut errors),
         }
         errors
     }
@@ -89,6 +114,20 @@ impl Model {
             Model::Polynomial(model) => Box::new(model.profile(medium)?),
             Model::GaussianSum(model) => Box::new(model.profile(medium, channel)?),
             Model::ExponentialDipole(model) => Box::new(model.profile(medium)?),
+            Model::Tabulated(model) => Box::new(model.profile(medium)?),
+            Model::TwoExponentialDipole(model) => Box::new(model.profile(medium)?),
         })
+    }
+
+    /// The integral of 2πr·R/A as the model's equation gives it, before the profile is normalised: how far the
+    /// model misses the conservation of energy. 1 for all but the polynomial and tables.
+    ///
+    /// `surface_albedo` in (0, 1].
+    pub fn energy_before_normalization(&self, surface_albedo: f64) -> Result<f64, ModelError> {
+        match self {
+            Model::Polynomial(model) => model.energy_before_normalization(surface_albedo),
+            Model::Tabulated(model) => Ok(model.energy_before_normalization(surface_albedo)),
+            _ => Ok(1.0),
+        }
     }
 }

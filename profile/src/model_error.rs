@@ -121,6 +121,22 @@ pub enum ModelError {
         /// The value of s(A), in inverse mean free paths.
         attenuation: f64,
     },
+    /// A share is no number from 0 to 1.
+    #[error("`{coefficient}` is {value}, outside [0, 1]")]
+    ShareOutOfRange {
+        /// Path of the field from its model.
+        coefficient: &'static str,
+        /// The value given.
+        value: f64,
+    },
+    /// A ratio of two lengths is zero or negative.
+    #[error("`{coefficient}` is {value}, not above 0")]
+    RatioNotPositive {
+        /// Path of the field from its model.
+        coefficient: &'static str,
+        /// The value given.
+        value: f64,
+    },
     /// Finite coefficients gave a quantity that is infinite, or too small to divide by.
     #[error("`{quantity}` is out of the range of numbers at surface albedo {surface_albedo}")]
     OutOfNumericRange {

@@ -9,6 +9,7 @@ use subsurface_profile::quadrature::Quadrature;
 use subsurface_profile::{
     BurleyModel, BurleyShape, Channel, ExponentialDipoleModel, GaussianSumModel, GaussianTerm, Length,
     Medium, Model, PolynomialA, PolynomialB, PolynomialC, PolynomialModel, RadialProfile,
+    TwoExponentialDipoleModel,
 };
 
 /// Both ends, their neighbourhoods, and the range between in steps of 0.05.
@@ -419,6 +420,16 @@ proptest! {
                     })
                     .collect(),
             }),
+            Model::TwoExponentialDipole(TwoExponentialDipoleModel {
+                exponential_weight: [v(0).abs().min(1.0), 0.0, 0.0, 0.0],
+                exponential_length: [v(1), v(2), v(3), v(4)],
+                dipole_depth: [v(5), v(6), v(7), v(8)],
+                dipole_attenuation: [v(9), v(10), v(11), v(0)],
+                short_weight: v(1).abs().min(1.0),
+                short_length: v(2).abs(),
+                second_weight: v(3).abs().min(1.0),
+                second_depth: v(4).abs(),
+            }),
             Model::ExponentialDipole(ExponentialDipoleModel {
                 exponential_weight: [v(0).abs().min(1.0), 0.0, 0.0],
                 exponential_length: triple(3),
@@ -466,6 +477,22 @@ fn any_model() -> impl Strategy<Value = Model> {
                 .collect();
             Model::GaussianSum(GaussianSumModel { terms })
         }),
+        (
+            [0.0..=1.0f64, 0.0..=1.0f64, 0.0..=1.0f64],
+            [decades(), decades(), decades(), decades(), decades()],
+        )
+            .prop_map(|([w, a, h], [d, b, z, k, s])| {
+                Model::TwoExponentialDipole(TwoExponentialDipoleModel {
+                    exponential_weight: [w, 0.0, 0.0, 0.0],
+                    exponential_length: [d, 0.0, 0.0, 0.0],
+                    dipole_depth: [z, 0.0, 0.0, 0.0],
+                    dipole_attenuation: [s, 0.0, 0.0, 0.0],
+                    short_weight: a,
+                    short_length: b,
+                    second_weight: h,
+                    second_depth: k,
+                })
+            }),
         (0.0..=1.0f64, decades(), decades(), decades()).prop_map(|(w, d, z, s)| {
             Model::ExponentialDipole(ExponentialDipoleModel {
                 exponential_weight: [w, 0.0, 0.0],

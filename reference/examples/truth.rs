@@ -10,6 +10,7 @@
 #![allow(clippy::print_stderr, reason = "a program that runs for minutes says how far it is")]
 
 use std::error::Error;
+use std::io::ErrorKind;
 use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::Instant;
@@ -38,6 +39,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let path = Path::new(runs).join(format!("{name}.run"));
         let mut run = match std::fs::read(&path) {
             Ok(bytes) => Run::from_bytes(&bytes)?,
+            Err(error) if error.kind() != ErrorKind::NotFound => return Err(error.into()),
             Err(_) => Run::new(HalfSpace::new(entry, 0.0, refractive_index)?, seed),
         };
         let (start, events) = (Instant::now(), run.events());

@@ -57,7 +57,7 @@ static NODES: LazyLock<Vec<Node>> = LazyLock::new(|| {
     nodes
 });
 
-/// 1 - θ cot θ, by its series where the difference would cancel (Abramowitz and Stegun 1964, eq. 4.3.70).
+/// 1 - θ cot θ, by the series of the cotangent where the difference would cancel.
 fn one_minus_cotangent(theta: f64) -> f64 {
     let square = theta * theta;
     if theta < 0.05 {
@@ -93,7 +93,7 @@ impl HFunction {
 
 /// H(μ) of a medium that scatters isotropically with the single-scattering albedo α = 1 - q². μ and q in [0, 1].
 ///
-/// \[SW59\] eq. (9): ln H(μ) = -(μ/π) ∫₀^(π/2) ln(1 - α θ cot θ) / (cos²θ + μ² sin²θ) dθ.
+/// \[SW59\]: ln H(μ) = -(μ/π) ∫₀^(π/2) ln(1 - α θ cot θ) / (cos²θ + μ² sin²θ) dθ.
 pub fn h_function(mu: f64, q: f64) -> f64 {
     HFunction::new(q).at(mu)
 }

@@ -49,6 +49,9 @@ pub enum EstimateError {
     /// A is outside [0, 1] or not a number.
     #[error("surface albedo {0} is not in [0, 1]: give the reflected fraction of what entered")]
     SurfaceAlbedo(f64),
+    /// Surface albedos of a table that do not rise.
+    #[error("surface albedo {0} does not rise above the one before it: sort them, each once")]
+    Order(f64),
     /// There is nothing to estimate from.
     #[error("the run holds no photons yet: simulate some first")]
     NoPhotons,

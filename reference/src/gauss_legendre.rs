@@ -8,8 +8,8 @@ pub(crate) struct GaussLegendre<const N: usize> {
 }
 
 impl<const N: usize> GaussLegendre<N> {
-    /// Newton's method on the Legendre polynomial from the guess cos(π(i + 3/4)/(N + 1/2)) (Abramowitz and Stegun 1964,
-    /// eq. 22.16.6), weights 2/((1 - x²) P'²) (eq. 25.4.29).
+    /// Newton's method on the Legendre polynomial from the guess cos(π(i + 3/4)/(N + 1/2)) and the weights
+    /// 2/((1 - x²) P'²), both as in Abramowitz and Stegun 1964.
     pub(crate) fn new() -> Self {
         let mut nodes = [(0.0, 0.0); N];
         for (index, node) in nodes.iter_mut().enumerate() {

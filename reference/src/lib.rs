@@ -30,8 +30,8 @@
 //! - A run is a set of photons. The same photons are the same bytes, on any number of threads and on any machine, however
 //!   often the simulation broke off or was [merged](Run::merge) from others.
 //! - A stated error is one standard deviation. What is not random is exact to more digits than are printed, but for the
-//!   light that scatters more than 10⁴/(1 - g) times (10⁷ times at most, which is too early for g > 0.999): diffusion
-//!   theory takes over there, and is off by 10⁻³ of these 1 % of the photons.
+//!   light that scatters more than 10⁴/(1 - g) times: diffusion theory takes over there, and is off by 10⁻³ of these 1 %
+//!   of the photons.
 //! - The light of one table is the light of one run: errors at different albedos belong together, and so do those of rings
 //!   beyond [`RadialTable::INDEPENDENT_UP_TO`].
 //!

@@ -37,6 +37,7 @@ pub struct ChiSquared {
 
 impl ChiSquared {
     /// By how many of its standard deviations the value differs from what it should be: above 4, the tables disagree.
+    /// NaN where no ring was compared.
     pub fn deviation(&self) -> f64 {
         let expected = self.degrees_of_freedom as f64;
         // χ² has the variance 2 per degree of freedom.

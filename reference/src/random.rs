@@ -1,12 +1,23 @@
 //! Random numbers: xoshiro128++ (Blackman and Vigna 2021, "Scrambled Linear Pseudorandom Number Generators", ACM TOMS
 //! 47(4)), seeded by SplitMix64 as its authors ask.
 //!
-//! It needs no multiplication, so a generator per lane costs a few vector instructions even on plain SSE2. Each lane of
-//! each batch has a state of its own out of 2¹²⁸: a million batches of 65 draw disjoint stretches but for a chance of
-//! about 10⁻¹².
+//! It needs no multiplication, so a generator per lane costs a few vector instructions even on plain SSE2. The
+//! 65 generators of a batch are seeded one after the other from a key of 64 bits: among a million batches, two meet in
+//! one of their states with a chance of about 10⁻⁵, and then share a few lanes out of 65 million.
 
 /// Words of state of one generator.
 pub(crate) type State = [u32; 4];
+
+/// What SplitMix64 adds to its state in a step: 2⁶⁴ over the golden ratio, made odd.
+const GOLDEN_GAMMA: u64 = 0x9e37_79b9_7f4a_7c15;
+
+/// One step of SplitMix64, a bijection (Steele, Lea and Flood 2014, "Fast splittable pseudorandom number generators").
+pub(crate) fn mix(value: u64) -> u64 {
+    let z = value.wrapping_add(GOLDEN_GAMMA);
+    let z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    z ^ (z >> 31)
+}
 
 /// States of generators that belong to (`seed`, `batch`), one after the other.
 pub(crate) struct States(u64);
@@ -21,12 +32,10 @@ impl States {
         States(batches.next_word())
     }
 
-    /// SplitMix64 (Steele, Lea, Flood 2014).
     fn next_word(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
+        let word = mix(self.0);
+        self.0 = self.0.wrapping_add(GOLDEN_GAMMA);
+        word
     }
 
     pub(crate) fn next_state(&mut self) -> State {

@@ -41,6 +41,9 @@ pub enum MergeError {
 }
 
 impl Run {
+    /// No run holds more photons or scatterings, so that those of two can be added: at 10¹⁰ per second, 14 years.
+    pub(crate) const MOST: u64 = 1 << 62;
+
     /// A run without photons. `seed` decides all random numbers.
     pub fn new(half_space: HalfSpace, seed: u64) -> Run {
         let counts = ScatteringCounts::of(&half_space);
@@ -89,7 +92,12 @@ impl Run {
     ) -> Outcome {
         /// Batches between looks at the standard error.
         const CHECK: u64 = 64;
+        /// Scatterings per photon above which a batch takes seconds.
+        const LONG_WALK: u32 = 100_000;
         let walk = Walk::new(self.half_space);
+        // A round keeps each thread busy four times, so that none waits long for the last; once where the caller would wait
+        // too long to break off.
+        let batches_per_thread = if self.counts.long() > LONG_WALK { 1 } else { 4 };
         let threads = rayon::current_num_threads();
         let mut partial: Vec<Histogram> = Vec::new();
         let batches_goal = goal.photon_count().div_ceil(BATCH);
@@ -106,8 +114,9 @@ impl Run {
             if batches >= batches_goal {
                 return Outcome::Photons;
             }
-            // A round keeps each thread busy four times, so that none waits long for the last.
-            let round = (4 * threads as u64).min(batches_goal - batches).min(CHECK - batches % CHECK);
+            let round = (batches_per_thread * threads as u64)
+                .min(batches_goal - batches)
+                .min(CHECK - batches % CHECK);
             let seed = self.seed();
             let todo = self.sources.entry(seed).or_default().missing(round);
             partial.resize_with(threads.min(todo.len()).max(partial.len()), || {
@@ -151,9 +160,7 @@ impl Run {
                 return Err(MergeError::Overlap(*seed));
             }
         }
-        if self.photons().checked_add(other.photons()).is_none()
-            || self.events().checked_add(other.events()).is_none()
-        {
+        if self.photons() + other.photons() > Run::MOST || self.events() + other.events() > Run::MOST {
             return Err(MergeError::TooMany);
         }
         for (&seed, batches) in &other.sources {

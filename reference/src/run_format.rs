@@ -174,7 +174,9 @@ impl Run {
     fn check(&self) -> Result<(), RunFormatError> {
         let batches = self.sources.values().try_fold(0_u64, |sum, batches| sum.checked_add(batches.len()));
         let photons = batches.and_then(|batches| batches.checked_mul(BATCH));
-        let photons = photons.ok_or(RunFormatError::Inconsistent("more photons than can be counted"))?;
+        let photons = photons
+            .filter(|&photons| photons <= Run::MOST && self.events() <= Run::MOST)
+            .ok_or(RunFormatError::Inconsistent("more photons or scatterings than can be counted"))?;
         let survivors = [self.histogram.short_survivors, self.histogram.long_survivors];
         let accounted: u128 =
             self.histogram.exits().iter().chain(&survivors).map(|&count| u128::from(count)).sum();

@@ -25,8 +25,8 @@ pub struct TruthTable {
     pub half_space: HalfSpace,
     /// Photons simulated.
     pub photons: u64,
-    /// Seed of the run.
-    pub seed: u64,
+    /// Seeds of the run, rising: more than one if runs were merged.
+    pub seeds: Vec<u64>,
     /// The command that makes this table.
     pub command: String,
     /// One profile per surface albedo, rising.
@@ -76,12 +76,15 @@ impl TruthTable {
     ///
     /// # Errors
     ///
-    /// A surface albedo outside [0, 1]; no photons.
+    /// A surface albedo outside [0, 1] or not above the one before it; no photons.
     pub fn from_run(run: &Run, surface_albedos: &[f64], command: &str) -> Result<TruthTable, EstimateError> {
         const LEFT_OUTSIDE: f64 = 5e-5;
         const JOINED_UP_TO: f64 = 0.12;
         let mut tables = Vec::new();
         for &surface_albedo in surface_albedos {
+            if tables.last().is_some_and(|last: &RadialTable| surface_albedo <= last.surface_albedo) {
+                return Err(EstimateError::Order(surface_albedo));
+            }
             let single_scattering_albedo = run.single_scattering_albedo(surface_albedo)?;
             let fine = run.radial_profile(single_scattering_albedo)?;
             let last = fine.bins.iter().position(|bin| bin.cdf_at_r_hi > 1.0 - LEFT_OUTSIDE);
@@ -99,7 +102,7 @@ impl TruthTable {
         Ok(TruthTable {
             half_space: run.half_space(),
             photons: run.photons(),
-            seed: run.seed(),
+            seeds: run.seeds().collect(),
             command,
             tables,
         })
@@ -120,7 +123,7 @@ impl TruthTable {
         header("anisotropy", &self.half_space.anisotropy());
         header("refractive_index", &self.half_space.refractive_index());
         header("photons", &self.photons);
-        header("seed", &self.seed);
+        header("seed", &self.seeds.iter().map(u64::to_string).collect::<Vec<_>>().join(", "));
         header("command", &self.command);
         text.push_str(COLUMNS);
         text.push('\n');
@@ -162,7 +165,10 @@ impl TruthTable {
         let half_space =
             HalfSpace::new(entry, number(text, "anisotropy")?, number(text, "refractive_index")?)?;
         let photons = number(text, "photons")?;
-        let seed = number(text, "seed")?;
+        let seeds = header(text, "seed")?
+            .split(',')
+            .map(|seed| seed.trim().parse().map_err(|_| TruthTableError::Header("seed")))
+            .collect::<Result<_, _>>()?;
         let command = header(text, "command")?.to_owned();
         let mut lines = text
             .lines()
@@ -182,7 +188,7 @@ impl TruthTable {
         if shortest < 2 {
             return Err(TruthTableError::TooShort(shortest));
         }
-        Ok(TruthTable { half_space, photons, seed, command, tables })
+        Ok(TruthTable { half_space, photons, seeds, command, tables })
     }
 }
 

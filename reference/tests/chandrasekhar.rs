@@ -1,11 +1,15 @@
 //! Exact totals: the equation that H solves, limits, round trips, and digits that were computed elsewhere.
 
-#![allow(clippy::unwrap_used, reason = "tests")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stderr,
+    reason = "tests may panic, and say what they could not do"
+)]
 
 use subsurface_reference::Entry;
 use subsurface_reference::chandrasekhar::{TotalError, h_function, single_scattering_albedo, surface_albedo};
 
-/// A, α searchlight, α diffuse: from an independent program that iterates the integral equation of H.
+/// A, α searchlight, α diffuse: from a program that shares nothing with this crate.
 const DIGITS: [(f64, f64, f64); 10] = [
     (0.005, 0.0319275722, 0.0241073508),
     (0.05, 0.2689552547, 0.2141022169),
@@ -21,10 +25,15 @@ const DIGITS: [(f64, f64, f64); 10] = [
 
 #[test]
 fn digits_are_those_of_another_program() {
-    for (albedo, searchlight, diffuse) in DIGITS {
+    for (known_surface_albedo, searchlight, diffuse) in DIGITS {
         // Ten digits are given.
-        assert!((single_scattering_albedo(Entry::Searchlight, albedo).unwrap() - searchlight).abs() < 1e-10);
-        assert!((single_scattering_albedo(Entry::Diffuse, albedo).unwrap() - diffuse).abs() < 1e-10);
+        assert!(
+            (single_scattering_albedo(Entry::Searchlight, known_surface_albedo).unwrap() - searchlight).abs()
+                < 1e-10
+        );
+        assert!(
+            (single_scattering_albedo(Entry::Diffuse, known_surface_albedo).unwrap() - diffuse).abs() < 1e-10
+        );
     }
 }
 
@@ -37,10 +46,10 @@ fn h_has_chandrasekhars_moments() {
             .map(|index| (f64::from(index) + 0.5) / 2000.0)
             .map(|t| 2.0 * t * h_function(t * t, q) / 2000.0)
             .sum();
-        // Chandrasekhar 1960, ch. V, theorem 2: (α/2) ∫ H dμ = 1 - √(1 - α).
+        // Chandrasekhar 1960, ch. V: (α/2) ∫ H dμ = 1 - √(1 - α).
         assert!((0.5 * alpha * moment - (1.0 - q)).abs() < 2e-6, "{alpha}");
     }
-    // Tabulated by Chandrasekhar (table XI) and, to more digits, by Hovenier: H(1) = 2.9078 at α = 1.
+    // Chandrasekhar's table of H for α = 1 ends with H(1) = 2.9078.
     assert!((h_function(1.0, 0.0) - 2.907_81).abs() < 1e-5);
     assert_eq!(h_function(0.0, 0.5), 1.0);
 }
@@ -53,10 +62,10 @@ fn albedos_invert_each_other_and_end_at_0_and_1() {
         assert_eq!(single_scattering_albedo(entry, 0.0).unwrap(), 0.0);
         assert_eq!(single_scattering_albedo(entry, 1.0).unwrap(), 1.0);
         for percent in (1..100).step_by(7) {
-            let albedo = f64::from(percent) / 100.0;
-            let alpha = single_scattering_albedo(entry, albedo).unwrap();
+            let known_surface_albedo = f64::from(percent) / 100.0;
+            let alpha = single_scattering_albedo(entry, known_surface_albedo).unwrap();
             // α has 16 digits, and A moves by up to 10³ times as much as α near 1.
-            assert!((surface_albedo(entry, alpha).unwrap() - albedo).abs() < 1e-12);
+            assert!((surface_albedo(entry, alpha).unwrap() - known_surface_albedo).abs() < 1e-12);
         }
     }
 }
@@ -73,6 +82,7 @@ fn impossible_albedos_are_errors() {
 fn all_digits_of_the_shared_table() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../shared/truth/A_alpha_exact.csv");
     let Ok(text) = std::fs::read_to_string(path) else {
+        eprintln!("not compared: there is no ../shared/truth beside this repository");
         return;
     };
     for row in text.lines().skip(1) {

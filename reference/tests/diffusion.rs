@@ -246,7 +246,7 @@ fn slab_with_its_source_in_the_middle_is_the_same_from_both_sides() {
 fn multipole_has_the_totals_of_adding_and_doubling() {
     // Adding-doubling with 32 angles (Prahl's iadpython; its digits change by 2e-4 from 16 angles), perpendicular
     // entry into an isotropic slab, light that entered = 1: α, η, thickness, R, T, and how far diffusion may be off.
-    for [albedo, index, thickness, reflected, transmitted, tolerance] in [
+    for [single_scattering_albedo, index, thickness, reflected, transmitted, tolerance] in [
         [1.0, 1.0, 4.0, 0.6908, 0.3090, 0.012],
         [1.0, 1.0, 10.0, 0.8525, 0.1467, 0.005],
         [0.99, 1.0, 4.0, 0.6449, 0.2754, 0.012],
@@ -255,7 +255,8 @@ fn multipole_has_the_totals_of_adding_and_doubling() {
         // Half of the light is absorbed here, and diffusion is not made for that.
         [0.9, 1.0, 4.0, 0.4081, 0.1285, 0.16],
     ] {
-        let slab = Multipole::new(Medium::new(albedo, 0.0, index).unwrap(), thickness).unwrap();
+        let slab =
+            Multipole::new(Medium::new(single_scattering_albedo, 0.0, index).unwrap(), thickness).unwrap();
         assert_close(slab.total(), reflected, tolerance, "reflected");
         assert_close(slab.total_transmittance(), transmitted, tolerance, "transmitted");
     }
@@ -290,7 +291,7 @@ fn profiles_of_a_slab_are_positive_and_fall_with_the_radius() {
 
 #[test]
 fn total_of_the_classical_dipole_is_the_published_one() {
-    // Jensen and Buhler 2002, equation 15, with A = 1 at a matched boundary.
+    // Jensen and Buhler 2002, with A = 1 at a matched boundary.
     for reduced_albedo in [0.1_f64, 0.5, 0.9, 0.99, 0.9999] {
         let root = (3.0 * (1.0 - reduced_albedo)).sqrt();
         let published = 0.5 * reduced_albedo * (1.0 + (-4.0 / 3.0 * root).exp()) * (-root).exp();
@@ -366,8 +367,8 @@ fn profiles_are_those_of_an_independent_quadrature() {
         [0.9, 0.8, 1.4, 0.1, 6.7508967472187e-3, 8.8706042398386e-4, 2.8988367356895e-3, 1.6226240985950e-2],
         [0.9, 0.8, 1.4, 5.0, 1.4309420995926e-4, 1.6947515040631e-4, 3.7187706839092e-4, 2.0894975123103e-10],
     ];
-    for [albedo, anisotropy, index, radius, beam, better, classical, single] in VALUES {
-        let medium = Medium::new(albedo, anisotropy, index).unwrap();
+    for [single_scattering_albedo, anisotropy, index, radius, beam, better, classical, single] in VALUES {
+        let medium = Medium::new(single_scattering_albedo, anisotropy, index).unwrap();
         // Both sides claim 1e-12; the printed digits are good to 1e-13.
         assert_close(BeamDiffusion::new(medium).reflectance(radius), beam, 3e-12, "beam");
         assert_close(BetterDipole::new(medium).reflectance(radius), better, 3e-12, "better dipole");
@@ -508,6 +509,13 @@ fn slabs_that_cannot_be_are_refused() {
     for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         let error = Multipole::new(medium, bad).unwrap_err();
         assert!(matches!(error, ThicknessError::NotPositive(_)), "{error}");
+    }
+    // The largest of numbers is a thickness too.
+    for single_scattering_albedo in [0.5, 1.0] {
+        let medium = Medium::new(single_scattering_albedo, 0.5, 1.0).unwrap();
+        let slab = Multipole::new(medium, f64::MAX).unwrap();
+        assert_close(slab.reflectance(1.0), ClassicalDipole::new(medium).reflectance(1.0), 1e-12, "thick");
+        assert_eq!(slab.transmittance(1.0), 0.0);
     }
     // σt′ = 0.75: the source is 4/3 mean free paths deep.
     assert!(Multipole::new(medium, 1.34).is_ok());

@@ -7,7 +7,8 @@ use std::sync::LazyLock;
 
 use subsurface_reference::{Entry, Goal, HalfSpace, RING_EDGES, Run, chandrasekhar};
 
-/// Four of five standard deviations would be one failure in 16,000; these seeds are fixed, so there is none or always.
+/// One right result in 16,000 is farther off than four standard deviations. Seeds are fixed, so a test that passes keeps
+/// passing.
 const SIGMAS: f64 = 4.0;
 
 fn simulate(half_space: HalfSpace, photons: u64) -> Run {
@@ -29,8 +30,8 @@ fn totals_are_chandrasekhars() {
             let estimate = run.surface_albedo(alpha).unwrap();
             let z = (estimate.mean - exact) / estimate.standard_error;
             assert!(z.abs() < SIGMAS, "{:?} at {alpha}: {z}", run.half_space().entry());
-            // A millionth of the photons say as much as this.
-            assert!(estimate.standard_error < 2e-3);
+            // A coin thrown 2²⁰ times has 4.9e-4; that one photon in eight is followed to its end adds at most 4e-4.
+            assert!(estimate.standard_error < 6.5e-4);
         }
     }
 }
@@ -90,17 +91,17 @@ fn wider_rings_hold_what_their_parts_hold() {
 #[test]
 fn inverses_are_inverses() {
     let mismatched = simulate(HalfSpace::new(Entry::Searchlight, 0.0, 1.4).unwrap(), 1 << 18);
-    for albedo in [0.0, 0.01, 0.3, 0.8, 0.99] {
-        let alpha = mismatched.single_scattering_albedo(albedo).unwrap();
-        assert!((mismatched.surface_albedo(alpha).unwrap().mean - albedo).abs() < 1e-9);
-        let exact = chandrasekhar::single_scattering_albedo(Entry::Diffuse, albedo).unwrap();
-        assert_eq!(DIFFUSE.single_scattering_albedo(albedo).unwrap(), exact);
+    for surface_albedo in [0.0, 0.01, 0.3, 0.8, 0.99] {
+        let alpha = mismatched.single_scattering_albedo(surface_albedo).unwrap();
+        assert!((mismatched.surface_albedo(alpha).unwrap().mean - surface_albedo).abs() < 1e-9);
+        let exact = chandrasekhar::single_scattering_albedo(Entry::Diffuse, surface_albedo).unwrap();
+        assert_eq!(DIFFUSE.single_scattering_albedo(surface_albedo).unwrap(), exact);
     }
 }
 
 #[test]
 fn forward_scattering_is_similar_to_less_scattering() {
-    // σs' = (1 - g) σs. Near α = 1 the total depends on little else; van de Hulst 1980 finds 1 % for g < 0.8.
+    // σs' = (1 - g) σs. Near α = 1 the total depends on little else, but similarity is exact in the limit only: 2 %.
     let forward = simulate(HalfSpace::new(Entry::Diffuse, 0.8, 1.0).unwrap(), 1 << 17);
     for reduced in [0.95, 0.99, 0.999] {
         // α' = α (1 - g) / (1 - α g), solved for α.
@@ -113,7 +114,7 @@ fn forward_scattering_is_similar_to_less_scattering() {
 
 #[test]
 fn the_mismatched_total_is_giovanellis() {
-    // Giovanelli 1955 as quoted by Wang, Jacques, Zheng 1995 (MCML), table 2: refractive index 1.5, α = 0.9, isotropic:
+    // Giovanelli 1955 as quoted by Wang, Jacques, Zheng 1995 (MCML): refractive index 1.5, α = 0.9, isotropic:
     // 0.2600 of perpendicular light, of which 0.04 is specular. Here it is per energy that entered.
     let run = simulate(HalfSpace::new(Entry::Searchlight, 0.0, 1.5).unwrap(), 1 << 20);
     let estimate = run.surface_albedo(0.9).unwrap();

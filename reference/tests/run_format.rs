@@ -71,6 +71,8 @@ fn contents_are_checked_behind_a_checksum_that_fits() {
         RunFormatError::Inconsistent(_) | RunFormatError::Truncated(_)
     ));
     assert!(matches!(changed(65, &u32::MAX.to_le_bytes()), RunFormatError::Inconsistent(_)));
+    // Scatterings that could not be added to.
+    assert!(matches!(changed(85, &u64::MAX.to_le_bytes()), RunFormatError::Inconsistent(_)));
     // One more batch than there are photons.
     assert!(matches!(changed(77, &2_u64.to_le_bytes()), RunFormatError::Inconsistent(_)));
     assert!(matches!(changed(77, &u64::MAX.to_le_bytes()), RunFormatError::Inconsistent(_)));

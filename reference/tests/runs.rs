@@ -5,7 +5,7 @@
 use std::ops::ControlFlow;
 
 use subsurface_reference::{
-    Entry, EstimateError, Goal, GoalError, HalfSpace, HalfSpaceError, MergeError, Outcome, Run,
+    Entry, EstimateError, Goal, GoalError, HalfSpace, HalfSpaceError, MergeError, Outcome, Run, TruthTable,
 };
 
 const BATCH: u64 = 1 << 16;
@@ -132,7 +132,7 @@ fn impossible_requests_are_errors() {
     for error in [0.0, -1.0, f64::NAN] {
         assert!(matches!(goal.or_relative_standard_error(error), Err(GoalError::StandardError(_))));
     }
-    for anisotropy in [-1.0, 1.0, 2.0, f64::NAN] {
+    for anisotropy in [-1.0, 0.9999, 1.0, 2.0, f64::NAN] {
         let error = HalfSpace::new(Entry::Diffuse, anisotropy, 1.0);
         assert!(matches!(error, Err(HalfSpaceError::Anisotropy(_))));
     }
@@ -143,10 +143,14 @@ fn impossible_requests_are_errors() {
     let empty = Run::new(half_space(), 1);
     assert_eq!(empty.surface_albedo(0.5), Err(EstimateError::NoPhotons));
     let some = run(half_space(), 1, 1, 1);
-    for albedo in [-0.1, 1.1, f64::NAN] {
-        assert!(matches!(some.surface_albedo(albedo), Err(EstimateError::SingleScatteringAlbedo(_))));
-        assert!(matches!(some.radial_profile(albedo), Err(EstimateError::SingleScatteringAlbedo(_))));
-        assert!(matches!(some.single_scattering_albedo(albedo), Err(EstimateError::SurfaceAlbedo(_))));
+    for value in [-0.1, 1.1, f64::NAN] {
+        assert!(matches!(some.surface_albedo(value), Err(EstimateError::SingleScatteringAlbedo(_))));
+        assert!(matches!(some.radial_profile(value), Err(EstimateError::SingleScatteringAlbedo(_))));
+        assert!(matches!(some.single_scattering_albedo(value), Err(EstimateError::SurfaceAlbedo(_))));
+    }
+    for surface_albedos in [[0.5, 0.2], [0.5, 0.5]] {
+        let table = TruthTable::from_run(&some, &surface_albedos, "");
+        assert_eq!(table, Err(EstimateError::Order(surface_albedos[1])));
     }
     for edges in [&[0.0, 0.3][..], &[0.0, 0.01, 0.005], &[0.0, f64::NAN]] {
         assert!(matches!(some.radial_profile_on(0.5, edges), Err(EstimateError::Edge(_))));

@@ -1,6 +1,10 @@
 //! The stored tables: readable, consistent, and in agreement with new photons and with another program's.
 
-#![allow(clippy::unwrap_used, reason = "tests")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stderr,
+    reason = "tests may panic, and say what they could not do"
+)]
 
 use std::ops::ControlFlow;
 
@@ -15,7 +19,8 @@ fn stored() -> [&'static TruthTable; 4] {
 fn assert_agreement(one: &RadialTable, two: &RadialTable, what: &str) {
     let chi_squared = one.chi_squared(two);
     assert!(chi_squared.degrees_of_freedom > 20, "{what}: {chi_squared:?}");
-    assert!(chi_squared.deviation() < 4.0, "{what}: {chi_squared:?}");
+    // Far too small says that the stated errors are too large.
+    assert!(chi_squared.deviation().abs() < 4.0, "{what}: {chi_squared:?}");
 }
 
 #[test]
@@ -44,6 +49,7 @@ fn writing_is_the_inverse_of_reading() {
     for table in stored() {
         let text = table.to_csv();
         assert_eq!(TruthTable::from_csv(&text).unwrap(), *table);
+        // Four such files are to stay small in the repository.
         assert!(text.len() < 115_000);
     }
 }
@@ -66,6 +72,7 @@ fn another_programs_tables_agree() {
     for (table, name) in [(truth::searchlight(), "searchlight"), (truth::diffuse(), "diffuse")] {
         let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../shared/truth");
         let Ok(text) = std::fs::read_to_string(format!("{folder}/{name}_A.csv")) else {
+            eprintln!("not compared: there is no ../shared/truth beside this repository");
             return;
         };
         let mut compared = 0;

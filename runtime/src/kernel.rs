@@ -5,12 +5,13 @@ use std::borrow::Cow;
 /// A kernel module and the parameter table of its materials.
 ///
 /// Generated Rust makes one with [`from_generated`](Self::from_generated); whoever compiles materials at run time makes
-/// one with [`new`](Self::new) from the compiler's output.
+/// one with [`new`](Self::new) from the compiler's output, and [`with_profile_tables`](Self::with_profile_tables).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SubsurfaceKernel {
     wgsl: Cow<'static, str>,
     material_table: Cow<'static, [u8]>,
     material_names: Vec<Cow<'static, str>>,
+    profile_tables: Cow<'static, [u8]>,
 }
 
 /// Parts that do not make a kernel.
@@ -51,7 +52,12 @@ impl SubsurfaceKernel {
             return Err(KernelError::Table { bytes, materials });
         }
         let material_names = material_names.into_iter().map(Cow::Owned).collect();
-        Ok(Self { wgsl: Cow::Owned(wgsl), material_table: Cow::Owned(material_table), material_names })
+        Ok(Self {
+            wgsl: Cow::Owned(wgsl),
+            material_table: Cow::Owned(material_table),
+            material_names,
+            profile_tables: Cow::Borrowed(&[]),
+        })
     }
 
     /// A kernel from generated Rust, whose parts fit by construction.
@@ -64,7 +70,17 @@ impl SubsurfaceKernel {
             wgsl: Cow::Borrowed(wgsl),
             material_table: Cow::Borrowed(material_table),
             material_names: material_names.iter().map(|name| Cow::Borrowed(*name)).collect(),
+            profile_tables: Cow::Borrowed(&[]),
         }
+    }
+
+    /// The kernel with the tables of its tabulated profiles: `profile_tables` of a compiler's output.
+    ///
+    /// A set that has such materials needs them, and its pipelines cannot be made without; for others they are empty.
+    #[must_use]
+    pub fn with_profile_tables(mut self, profile_tables: impl Into<Cow<'static, [u8]>>) -> Self {
+        self.profile_tables = profile_tables.into();
+        self
     }
 
     /// The module's text.
@@ -75,6 +91,11 @@ impl SubsurfaceKernel {
     /// Bytes of the parameter table: one row per material, by number.
     pub fn material_table(&self) -> &[u8] {
         &self.material_table
+    }
+
+    /// Bytes of the tables of tabulated profiles; empty where no material uses one.
+    pub fn profile_tables(&self) -> &[u8] {
+        &self.profile_tables
     }
 
     /// Bytes of one row.

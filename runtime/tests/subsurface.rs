@@ -4,8 +4,8 @@
 
 mod gpu;
 
-use gpu::{Gpu, compile, kernel};
-use subsurface_profile::{Channel, EdgeSpread, Medium, Model};
+use gpu::{Gpu, compile, kernel, model, stems, table_files};
+use subsurface_profile::{Channel, EdgeSpread, Medium};
 use subsurface_runtime::{Extent, SubsurfaceInputs, SubsurfacePass, SubsurfaceView, wgpu};
 
 const SIZE: [u32; 2] = [192, 192];
@@ -14,9 +14,9 @@ const MEAN_FREE_PATH_MM: [f64; 3] = [1.3, 0.95, 0.67];
 const SURFACE_ALBEDO: [f64; 3] = [0.8, 0.6, 0.4];
 
 fn material(stem: &str) -> String {
-    let length = match Model::published(stem).map(|model| model.length()) {
-        Some(subsurface_profile::Length::DiffuseMeanFreePath) => "diffuse_mean_free_path_mm",
-        _ => "mean_free_path_mm",
+    let length = match model(stem).length() {
+        subsurface_profile::Length::DiffuseMeanFreePath => "diffuse_mean_free_path_mm",
+        subsurface_profile::Length::MeanFreePath => "mean_free_path_mm",
     };
     let [lr, lg, lb] = MEAN_FREE_PATH_MM;
     let [ar, ag, ab] = SURFACE_ALBEDO;
@@ -44,7 +44,9 @@ fn diffuse_sized(
     surface: impl Fn(u32, u32) -> [f32; 4],
     depth: impl Fn(u32, u32) -> f32,
 ) -> Vec<[f32; 4]> {
-    let compilation = compile(&[("only.ron", &material(stem))]);
+    let [profile, table] = table_files();
+    let compilation =
+        compile(&[("only.ron", &material(stem)), (&profile.0, &profile.1), (&table.0, &table.1)]);
     gpu.validated(|| {
         let format = wgpu::TextureFormat::Rgba32Float;
         let mut pass = SubsurfacePass::new(&gpu.device, &kernel(&compilation), format, None);
@@ -78,7 +80,7 @@ fn skin(_: u32, _: u32) -> [f32; 4] {
 fn constant_irradiance_stays_constant() {
     let gpu = Gpu::open();
     let irradiance = [2.0, 0.5, 0.125];
-    for stem in Model::PUBLISHED {
+    for stem in stems() {
         for millimetres_per_pixel in [0.02, 0.3, 20.0] {
             let view = SubsurfaceView::orthographic_distances(millimetres_per_pixel).with_taps(17);
             // A tilted plane: the distances differ, the irradiance does not.
@@ -96,7 +98,7 @@ fn constant_irradiance_stays_constant() {
 /// Worst error, over columns and channels, of the mean over 64 rows across a step edge; and the noise: the standard
 /// deviation of pixels about their column's mean, worst column.
 fn edge_error(gpu: &Gpu, stem: &str, taps: u32) -> (f64, f64) {
-    let model = Model::published(stem).expect("a published stem");
+    let model = model(stem);
     let profiles = Channel::ALL.map(|channel| {
         let medium = Medium::new(SURFACE_ALBEDO[channel.index()], MEAN_FREE_PATH_MM[channel.index()]);
         model.profile(medium.expect("in the domain"), channel).expect("a published model")
@@ -128,7 +130,7 @@ fn edge_error(gpu: &Gpu, stem: &str, taps: u32) -> (f64, f64) {
 #[test]
 fn a_step_edge_spreads_as_the_profile_says() {
     let gpu = Gpu::open();
-    for stem in Model::PUBLISHED {
+    for stem in stems() {
         // Bounds per tap count, as a fraction of the step. Three things add up: radii stand for whole strata of the
         // CDF (1/n), taps snap to pixels (half a pixel of the slope at the edge), and 64 rows leave an eighth of a
         // pixel's noise in the mean. Twice what was measured with the model that does worst.
@@ -220,7 +222,7 @@ fn hostile_buffers_give_finite_pixels() {
             }
         }
     };
-    for stem in Model::PUBLISHED {
+    for stem in stems() {
         check(stem, [64, 64], 0.25);
     }
     for size in [[1, 1], [7, 3]] {
@@ -237,7 +239,7 @@ fn a_far_tap_of_finite_distance_is_no_hole() {
     let is_far = |x: u32| x % 2 == 1;
     let depth = |x, _| if is_far(x) { 1e30 } else { DISTANCE_MM };
     let irradiance = |x, y| if is_far(x) { [1000.0; 3] } else { [(y % 2) as f32; 3] };
-    for stem in Model::PUBLISHED {
+    for stem in stems() {
         let view = SubsurfaceView::orthographic_distances(0.05).with_taps(64);
         let picture = diffuse(&gpu, stem, &view, irradiance, skin, depth);
         let middle = &picture[(SIZE[1] / 2 * SIZE[0] + SIZE[0] / 2) as usize];

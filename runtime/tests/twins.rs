@@ -4,9 +4,9 @@
 
 mod gpu;
 
-use gpu::Gpu;
+use gpu::{Gpu, exponentials_alone_file, model, stems, table_files};
 use subsurface_codegen::{Compiler, Pass};
-use subsurface_profile::{Channel, Medium, Model};
+use subsurface_profile::{Channel, Medium};
 use subsurface_runtime::wgpu;
 use wgpu::util::DeviceExt as _;
 
@@ -33,10 +33,8 @@ struct Answer {
 }
 
 fn ask(gpu: &Gpu, lengths_mm: f64, queries: &[Query]) -> Vec<Answer> {
-    let files = Model::PUBLISHED.map(|stem| {
-        let length = if Model::published(stem)
-            .is_some_and(|m| m.length() == subsurface_profile::Length::DiffuseMeanFreePath)
-        {
+    let files = sorted_stems().into_iter().map(|stem| {
+        let length = if model(stem).length() == subsurface_profile::Length::DiffuseMeanFreePath {
             "diffuse_mean_free_path_mm"
         } else {
             "mean_free_path_mm"
@@ -47,8 +45,10 @@ fn ask(gpu: &Gpu, lengths_mm: f64, queries: &[Query]) -> Vec<Answer> {
         );
         (format!("{stem}.ron"), text)
     });
-    let compilation =
-        Compiler::from_memory(files).with_pass(TWINS).compile().unwrap_or_else(|r| panic!("{r}"));
+    let compilation = Compiler::from_memory(files.chain(table_files()).chain([exponentials_alone_file()]))
+        .with_pass(TWINS)
+        .compile()
+        .unwrap_or_else(|r| panic!("{r}"));
     let device = &gpu.device;
     let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
         label: Some("twins"),
@@ -84,7 +84,8 @@ fn ask(gpu: &Gpu, lengths_mm: f64, queries: &[Query]) -> Vec<Answer> {
             entries: &entries,
         })
     };
-    let (materials, points) = (group(0, &[&table]), group(1, &[&asked, &answered]));
+    let tables = buffer(&compilation.profile_tables, storage);
+    let (materials, points) = (group(0, &[&table, &tables]), group(1, &[&asked, &answered]));
     let mut encoder = device.create_command_encoder(&Default::default());
     {
         let mut pass = encoder.begin_compute_pass(&Default::default());
@@ -104,7 +105,8 @@ const LENGTHS_MM: [f64; 3] = [1e-2, 1.0, 1e3];
 
 /// Materials of a compilation are numbered by name.
 fn sorted_stems() -> Vec<&'static str> {
-    let mut stems = Model::PUBLISHED.to_vec();
+    let mut stems = stems();
+    stems.push("exponentials_alone");
     stems.sort_unstable();
     stems
 }
@@ -116,7 +118,7 @@ fn wgsl_agrees_with_the_f64_models() {
         let mut queries = Vec::new();
         let mut profiles = Vec::new();
         for (material, stem) in (0..).zip(sorted_stems()) {
-            let model = Model::published(stem).expect("a published stem");
+            let model = model(stem);
             for surface_albedo in SURFACE_ALBEDOS {
                 for channel in Channel::ALL {
                     let medium = Medium::new(f64::from(surface_albedo), length_mm).expect("in the domain");
@@ -207,7 +209,7 @@ fn the_sampler_on_the_device_passes_a_chi_squared_test() {
             })
             .collect();
         let answers = ask(&gpu, 1.0, &queries);
-        let model = Model::published(stem).expect("a published stem");
+        let model = model(stem);
         let medium = Medium::new(f64::from(0.8_f32), 1.0).expect("in the domain");
         let profile = model.profile(medium, Channel::Red).expect("a published model");
         let mut counts = [0_u32; BINS];

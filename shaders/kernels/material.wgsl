@@ -19,6 +19,8 @@ struct MaterialSurface {
 struct Profile {
     model: u32,
     coefficients: vec4f,
+    /// Constants of the model that are not functions of the surface albedo; 0 for models without any.
+    shape: vec4f,
 }
 
 /// The profiles of the three channels at one pixel.

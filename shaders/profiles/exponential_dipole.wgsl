@@ -25,59 +25,23 @@ fn exponential_dipole_profile(model: ExponentialDipoleModel, surface_albedo: f32
     );
 }
 
-/// ρ − z = r² / (ρ + z): the direct difference cancels for r ≪ z.
-fn exponential_dipole_detour(rho: f32, depth: f32, radius_mm: f32) -> f32 {
-    return radius_mm * radius_mm / (rho + depth);
-}
-
-/// The dipole's share of 2πr R(r) / A, divided by r: (1 − w) z (1 + sρ) e^(−s(ρ − z)) / ρ³.
-fn exponential_dipole_field(profile: vec4f, radius_mm: f32) -> f32 {
-    let rho = sqrt(radius_mm * radius_mm + profile.z * profile.z);
-    let detour = exponential_dipole_detour(rho, profile.z, radius_mm);
-    return (1.0 - profile.x) * (profile.z / rho) * (1.0 + profile.w * rho) * exp(-profile.w * detour) / (rho * rho);
-}
-
 /// R(r) / A per unit area, mm⁻². Diverges at r = 0.
 fn exponential_dipole_area_pdf(profile: vec4f, radius_mm: f32) -> f32 {
     let exponential = profile.x * exp(-radius_mm / profile.y) / (profile.y * max(radius_mm, SMALLEST_RADIUS_MM));
-    return (exponential + exponential_dipole_field(profile, radius_mm)) / TAU;
+    let field = (1.0 - profile.x) * dipole_source_field(profile.z, profile.w, radius_mm);
+    return (exponential + field) / TAU;
 }
 
 /// 2πr R(r) / A per unit radius, mm⁻¹.
 fn exponential_dipole_radial_pdf(profile: vec4f, radius_mm: f32) -> f32 {
     let exponential = profile.x * exp(-radius_mm / profile.y) / profile.y;
-    return exponential + radius_mm * exponential_dipole_field(profile, radius_mm);
+    return exponential + (1.0 - profile.x) * radius_mm * dipole_source_field(profile.z, profile.w, radius_mm);
 }
 
 /// Fraction of the reflected energy that leaves within `radius_mm`.
 fn exponential_dipole_radial_cdf(profile: vec4f, radius_mm: f32) -> f32 {
-    let rho = sqrt(radius_mm * radius_mm + profile.z * profile.z);
-    let detour = exponential_dipole_detour(rho, profile.z, radius_mm);
-    // 1 − (z/ρ) e^(−s(ρ−z)) as a sum of two terms that are both small with r.
-    let dipole = detour / rho + (profile.z / rho) * one_minus_exp(profile.w * detour);
+    let dipole = dipole_source_cdf(profile.z, profile.w, radius_mm);
     return profile.x * one_minus_exp(radius_mm / profile.y) + (1.0 - profile.x) * dipole;
-}
-
-/// Radius within which the dipole alone has the fraction u, given −ln(1 − u).
-///
-/// (z/ρ) e^(−s(ρ−z)) = 1 − u reads t + s eᵗ = ln z + s z − ln(1 − u) in t = ln ρ: convex and rising, so Newton's method
-/// falls monotonically from either of two upper bounds, ρ ≤ z/(1 − u) and ρ ≤ z − ln(1 − u)/s.
-fn exponential_dipole_dipole_radius(profile: vec4f, target_log: f32) -> f32 {
-    let depth = profile.z;
-    let attenuation = profile.w;
-    // Everything relative to z: τ = ln(ρ/z), τ + sz (e^τ − 1) = −ln(1 − u).
-    let optical_depth = attenuation * depth;
-    var tau = min(target_log, log_one_plus(target_log / max(optical_depth, 1e-20)));
-    for (var step = 0; step < 6; step += 1) {
-        let growth = exp(tau);
-        let excess = tau + optical_depth * (growth - 1.0) - target_log;
-        tau = max(tau - excess / (1.0 + optical_depth * growth), 0.0);
-        if abs(excess) <= 1e-7 * target_log {
-            break;
-        }
-    }
-    // r² = ρ² − z² = z² (e^2τ − 1) = z² e^2τ (1 − e^−2τ)
-    return depth * exp(tau) * sqrt(one_minus_exp(2.0 * tau));
 }
 
 /// Inverse of `exponential_dipole_radial_cdf`.
@@ -87,7 +51,7 @@ fn exponential_dipole_dipole_radius(profile: vec4f, target_log: f32) -> f32 {
 fn exponential_dipole_sample_radius(profile: vec4f, u: f32) -> f32 {
     let target_log = negative_log_complement(u);
     let exponential_radius = profile.y * target_log;
-    let dipole_radius = exponential_dipole_dipole_radius(profile, target_log);
+    let dipole_radius = dipole_source_radius(profile.z, profile.w, target_log);
     var low = min(exponential_radius, dipole_radius);
     var high = max(exponential_radius, dipole_radius);
     if u < profile.x {

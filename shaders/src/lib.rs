@@ -29,6 +29,7 @@ macro_rules! modules {
 /// Pure functions that passes, kernels and profiles share.
 pub const LIBRARY: &[Module] = modules![
     "lib/covering_triangle",
+    "lib/dipole_source",
     "lib/exponential",
     "lib/low_discrepancy",
     "lib/numeric_limits",
@@ -47,6 +48,8 @@ pub const PROFILES: &[Module] = modules![
     "profiles/exponential_dipole",
     "profiles/gaussian_sum",
     "profiles/polynomial",
+    "profiles/tabulated",
+    "profiles/two_exponential_dipole",
 ];
 
 /// What a profile is plugged into.

@@ -1,7 +1,8 @@
-//! The commands of the README: `cargo xtask demo`, `test`, `ci` and `bless`.
+//! The commands of the README: `cargo xtask demo`, `test`, `ci`, `bless` and `accuracy`.
 
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "a command line speaks to its user")]
 
+mod accuracy;
 mod driver;
 mod shell;
 
@@ -19,11 +20,15 @@ Commands:
   test    Find or install a Vulkan driver, then run every test
   ci      Formatting, lints, documentation and every test, as continuous integration does
   bless   Accept the texts and pictures that the tests now produce; then look at `git diff tests`
+  accuracy [--check]
+          Write docs/accuracy.md and its figures by running the commands that stand in xtask/accuracy.md; with
+          --check, write nothing and fail where the files in docs differ from what the commands give
 
 Examples:
   cargo xtask demo
   cargo xtask demo --size 480x600 --taps 128
   cargo xtask test -p subsurface-runtime
+  cargo xtask accuracy --check
 ";
 
 fn main() -> ExitCode {
@@ -35,6 +40,7 @@ fn main() -> ExitCode {
         Some("test") => test(&rest),
         Some("ci") => ci(),
         Some("bless") => bless(&rest),
+        Some("accuracy") => accuracy::run_command(&rest),
         Some("help" | "--help" | "-h") => {
             print!("{HELP}");
             Ok(())

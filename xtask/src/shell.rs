@@ -1,6 +1,6 @@
 //! Programs that the commands start.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// Why a command stopped: a message for its user.
@@ -11,6 +11,14 @@ pub(crate) struct Failure(pub(crate) String);
 pub(crate) fn root() -> PathBuf {
     let manifest = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
     manifest.parent().map(PathBuf::from).unwrap_or(manifest)
+}
+
+/// Cargo's target folder: the one that this program was built in.
+pub(crate) fn target() -> PathBuf {
+    let own = std::env::current_exe().ok();
+    // target/debug/xtask
+    let target = own.as_deref().and_then(Path::parent).and_then(Path::parent).map(Path::to_owned);
+    target.unwrap_or_else(|| root().join("target"))
 }
 
 /// The Cargo that runs this program, in the root.

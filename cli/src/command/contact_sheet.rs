@@ -56,7 +56,7 @@ const TILES: [(&str, Option<&str>); 5] = [
     ("Gaussian sum", Some("gaussian_skin")),
     ("Burley", Some("burley_searchlight")),
     ("polynomial", Some("liang_2023")),
-    ("exponential + dipole", Some("exponential_dipole_searchlight")),
+    ("two exp. + dipole", Some("two_exponential_dipole_searchlight")),
 ];
 
 /// Tiles in a row.

@@ -14,7 +14,9 @@ pub mod diffuse;
 mod lights;
 mod material_set;
 mod number;
+mod output;
 pub mod profile;
+pub mod reference;
 pub mod render;
 mod view;
 
@@ -30,7 +32,7 @@ Examples:
   subsurface check materials
   subsurface profile eval --model burley_diffuse --surface-albedo 0.8 --mean-free-path-mm 1.3 --radii 0,0.5,1
 
-Exit codes: 0 success, 1 the command reported an error, 2 it was called wrongly.")]
+Exit codes: 0 success, 1 the command reported an error, 2 it was called wrongly, 130 it was interrupted.")]
 pub struct Arguments {
     /// What to do.
     #[command(subcommand)]
@@ -55,8 +57,10 @@ pub enum Command {
     /// it) and subsurface.json (what the module binds, entry points, the parameter table). The same materials give the
     /// same bytes. For Rust projects, `subsurface_codegen::Compiler` in build.rs does the same at every build.
     Build(build::BuildArguments),
-    /// Evaluate or sample a radial diffusion profile on the CPU, in double precision.
+    /// Evaluate, judge, fit and draw radial diffusion profiles, in double precision.
     Profile(profile::ProfileArguments),
+    /// Ground truth by Monte Carlo: simulate, merge, tabulate and check photon walks.
+    Reference(reference::ReferenceArguments),
     /// Run the subsurface pass alone on your own buffers (OpenEXR in and out).
     ///
     /// Input channels, 16- or 32-bit, as flat names or as layers: irradiance.R/G/B (diffuse irradiance, linear); Z
@@ -68,8 +72,8 @@ pub enum Command {
     Diffuse(diffuse::DiffuseArguments),
     /// Draw one scene with every profile model, side by side with labels.
     ///
-    /// The tiles: no subsurface, Gaussian sum, Burley, polynomial, exponential + dipole. They differ in the profile alone;
-    /// everything else of the material stays.
+    /// The tiles: no subsurface, Gaussian sum, Burley, polynomial, two exponentials + dipole. They differ in the profile
+    /// alone; everything else of the material stays.
     ContactSheet(contact_sheet::ContactSheetArguments),
     /// Name the graphics adapter that pictures are drawn on.
     Adapter(adapter::AdapterArguments),
@@ -82,6 +86,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         Command::Check(arguments) => check::run(arguments),
         Command::Build(arguments) => build::run(arguments),
         Command::Profile(arguments) => profile::run(arguments),
+        Command::Reference(arguments) => reference::run(arguments),
         Command::Diffuse(arguments) => diffuse::run(arguments),
         Command::ContactSheet(arguments) => contact_sheet::run(arguments),
         Command::Adapter(arguments) => adapter::run(arguments),

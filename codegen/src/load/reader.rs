@@ -3,11 +3,12 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::io::{self, Read};
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 
 use crate::diagnostics::{Diagnostic, Report};
 use crate::source::{FileId, Span};
+use crate::table::LARGEST_TABLE;
 
 /// Largest file that is read, in bytes. The largest material known to us has 2 KiB.
 pub const LARGEST_FILE: u64 = 1024 * 1024;
@@ -81,13 +82,24 @@ impl Reader {
         }
     }
 
-    /// Reads a file; `None` when that fails, which is reported.
+    /// Reads a material or profile file; `None` when that fails, which is reported.
     pub(super) fn read(&mut self, path: &Path) -> Option<FileId> {
+        self.open(path, &RON).map_err(|diagnostic| self.report.push(*diagnostic)).ok()
+    }
+
+    /// Reads a table; the error has no place where there is no file.
+    pub(super) fn read_table(&mut self, path: &Path) -> Result<FileId, Box<Diagnostic>> {
+        // In memory there are no folders to climb.
+        let path = if matches!(self.origin, Origin::Memory(_)) { lexical(path) } else { path.to_owned() };
+        self.open(&path, &TABLE)
+    }
+
+    fn open(&mut self, path: &Path, kind: &Kind) -> Result<FileId, Box<Diagnostic>> {
         self.files.insert(path.to_owned());
         let read = match &self.origin {
-            Origin::Disk => read_disk(path),
+            Origin::Disk => read_disk(path, kind.largest),
             Origin::Memory(files) => match files.get(path) {
-                Some(bytes) if bytes.len() as u64 > LARGEST_FILE => {
+                Some(bytes) if bytes.len() as u64 > kind.largest => {
                     Ok(Contents::TooLarge(bytes.len() as u64))
                 }
                 Some(bytes) => Ok(Contents::Bytes(bytes.clone())),
@@ -98,24 +110,25 @@ impl Reader {
             Ok(Contents::Bytes(bytes)) => bytes,
             Ok(Contents::TooLarge(size)) => {
                 let file = self.report.sources_mut().add(path, "");
-                self.report.push(
+                let largest = kind.largest;
+                return Err(Box::new(
                     Diagnostic::error(format!(
-                        "the file has {size} bytes, more than the limit of {LARGEST_FILE} bytes (1 MiB)"
+                        "the file has {size} bytes, more than the limit of {largest} bytes ({} MiB)",
+                        largest / (1024 * 1024)
                     ))
                     .label(Span::new(file, 0..0), "not read")
-                    .help("a material has a few lines: is this another kind of file?"),
-                );
-                return None;
+                    .help(kind.usual_size),
+                ));
             }
             Err(error) => {
                 let message = format!("cannot read `{}`: {}", shown(path), reason(&error));
-                self.report
-                    .push(Diagnostic::error(message).help("check that the file exists and is readable"));
-                return None;
+                return Err(Box::new(
+                    Diagnostic::error(message).help("check that the file exists and is readable"),
+                ));
             }
         };
         match String::from_utf8(bytes) {
-            Ok(text) => Some(self.report.sources_mut().add(path, text)),
+            Ok(text) => Ok(self.report.sources_mut().add(path, text)),
             Err(error) => {
                 let offset = error.utf8_error().valid_up_to();
                 let byte = error.as_bytes().get(offset).copied().unwrap_or_default();
@@ -123,19 +136,34 @@ impl Reader {
                 let text = String::from_utf8_lossy(error.as_bytes()).into_owned();
                 let end = text[offset..].chars().next().map_or(offset, |c| offset + c.len_utf8());
                 let file = self.report.sources_mut().add(path, text);
-                self.report.push(
+                Err(Box::new(
                     Diagnostic::error("the file is not UTF-8")
                         .label(
                             Span::new(file, offset..end),
                             format!("byte 0x{byte:02X} at offset {offset} begins no UTF-8 character"),
                         )
                         .help("save the file as UTF-8"),
-                );
-                None
+                ))
             }
         }
     }
 }
+
+/// What is expected of a file.
+struct Kind {
+    /// Bytes.
+    largest: u64,
+    /// The remedy where it is larger.
+    usual_size: &'static str,
+}
+
+const RON: Kind =
+    Kind { largest: LARGEST_FILE, usual_size: "a material has a few lines: is this another kind of file?" };
+
+const TABLE: Kind = Kind {
+    largest: LARGEST_TABLE,
+    usual_size: "a few hundred radii for each of some surface albedos describe any profile: use wider bins",
+};
 
 enum Contents {
     Bytes(Vec<u8>),
@@ -154,19 +182,34 @@ fn list_disk(dir: &Path) -> io::Result<Vec<PathBuf>> {
     Ok(paths)
 }
 
-fn read_disk(path: &Path) -> io::Result<Contents> {
+fn read_disk(path: &Path, largest: u64) -> io::Result<Contents> {
     let metadata = fs::metadata(path)?;
     if !metadata.is_file() {
         // Opening a pipe would wait for a writer.
         return Err(io::Error::new(io::ErrorKind::InvalidInput, "it is not a regular file"));
     }
-    if metadata.len() > LARGEST_FILE {
+    if metadata.len() > largest {
         return Ok(Contents::TooLarge(metadata.len()));
     }
     let mut bytes = Vec::new();
-    fs::File::open(path)?.take(LARGEST_FILE + 1).read_to_end(&mut bytes)?;
+    fs::File::open(path)?.take(largest + 1).read_to_end(&mut bytes)?;
     let size = bytes.len() as u64; // a file may grow between the two calls
-    Ok(if size > LARGEST_FILE { Contents::TooLarge(size) } else { Contents::Bytes(bytes) })
+    Ok(if size > largest { Contents::TooLarge(size) } else { Contents::Bytes(bytes) })
+}
+
+/// The path without `.` and `..`, as far as they can be left out.
+fn lexical(path: &Path) -> PathBuf {
+    let mut result = PathBuf::new();
+    for part in path.components() {
+        match part {
+            Component::CurDir => {}
+            Component::ParentDir if result.file_name().is_some() => {
+                result.pop();
+            }
+            other => result.push(other),
+        }
+    }
+    result
 }
 
 /// The reason in words that are the same on every system, where there are some.

@@ -1,13 +1,15 @@
 //! What all decoders share: the file's diagnostics, and the fields of a struct by name.
 
-use crate::diagnostics::Diagnostic;
+use subsurface_profile::TabulatedModel;
+
+use crate::diagnostics::{Diagnostic, Severity};
 use crate::schema::quantity::Quantity;
 use crate::source::{Span, Spanned};
 use crate::suggestion::{closest, list, shortened};
 use crate::syntax::{Entry, Name, Node, Shape, count};
 
-/// Errors listed for one file. A generated list of 100 000 wrong numbers is one mistake, not 100 000.
-const MOST_ERRORS: usize = 100;
+/// Errors listed for one file, and as many warnings. A generated list of 100 000 wrong numbers is one mistake, not 100 000.
+const MOST_LISTED: usize = 100;
 
 /// A field of a file.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -51,32 +53,68 @@ pub(crate) struct Triple {
     pub(crate) span: Span,
 }
 
-/// Collects the diagnostics of one file while it is decoded.
-#[derive(Debug, Default)]
-pub(crate) struct Decoder {
-    diagnostics: Vec<Diagnostic>,
-    left_out: usize,
+/// Where the tables come from that a file names.
+pub(crate) trait Tables {
+    /// Reads the table in `file`, a path relative to the file that names it; what is wrong is reported.
+    fn read(&mut self, decoder: &mut Decoder, file: &Spanned<String>) -> Option<TabulatedModel>;
 }
 
-impl Decoder {
+/// Collects the diagnostics of one file while it is decoded.
+#[derive(Default)]
+pub(crate) struct Decoder<'t> {
+    diagnostics: Vec<Diagnostic>,
+    /// How many were reported, listed or not.
+    errors: usize,
+    warnings: usize,
+    /// `None` for a file that can name no table, and while one is read.
+    tables: Option<&'t mut dyn Tables>,
+}
+
+impl<'t> Decoder<'t> {
+    /// A decoder of a file that may name tables.
+    pub(crate) fn with_tables(tables: &'t mut dyn Tables) -> Self {
+        Self { tables: Some(tables), ..Self::default() }
+    }
+
+    /// The table in `file`; `None` when there is none, which is reported.
+    pub(crate) fn table(&mut self, file: &Spanned<String>) -> Option<TabulatedModel> {
+        let tables = self.tables.take()?;
+        let model = tables.read(self, file);
+        self.tables = Some(tables);
+        model
+    }
+
     /// Adds an error or a warning.
     pub(crate) fn report(&mut self, diagnostic: Diagnostic) {
-        if self.diagnostics.len() < MOST_ERRORS {
+        let reported = match diagnostic.severity {
+            Severity::Error => &mut self.errors,
+            Severity::Warning => &mut self.warnings,
+        };
+        *reported += 1;
+        if *reported <= MOST_LISTED {
             self.diagnostics.push(diagnostic);
-        } else {
-            self.left_out += 1;
         }
+    }
+
+    /// Adds what the decoder of a table reported, which has left out what is too much.
+    pub(crate) fn report_of_table(&mut self, diagnostics: impl IntoIterator<Item = Diagnostic>) {
+        self.diagnostics.extend(diagnostics);
     }
 
     /// All diagnostics of the file.
     pub(crate) fn finish(mut self, whole: &Span) -> Vec<Diagnostic> {
-        if self.left_out > 0 {
-            let message = format!("{} of this file are not listed", count(self.left_out, "further error"));
-            let end = whole.range.end;
-            let diagnostic = Diagnostic::error(message)
-                .label(Span::new(whole.file, end..end), "the file ends here")
-                .help(format!("fix the first {MOST_ERRORS}: the others are probably alike"));
-            self.diagnostics.push(diagnostic);
+        for (severity, reported) in [(Severity::Error, self.errors), (Severity::Warning, self.warnings)] {
+            let left_out = reported.saturating_sub(MOST_LISTED);
+            if left_out > 0 {
+                let further = count(left_out, &format!("further {}", severity.name()));
+                let are = if left_out == 1 { "is" } else { "are" };
+                let message = format!("{further} of this file {are} not listed");
+                let end = whole.range.end;
+                let diagnostic = Diagnostic::error(message)
+                    .label(Span::new(whole.file, end..end), "the file ends here")
+                    .help(format!("fix the first {MOST_LISTED}: the others are probably alike"));
+                self.diagnostics.push(Diagnostic { severity, ..diagnostic });
+            }
         }
         self.diagnostics
     }
@@ -136,31 +174,54 @@ impl Decoder {
         form: &str,
         quantity: &Quantity,
     ) -> Option<Triple> {
-        let expected = format!("three numbers `{form}`");
+        let nodes = self.numbers_of(node, field, form, ["three numbers", "in all three"], 3)?;
+        self.three(node, &nodes, field, quantity)
+    }
+
+    /// `(c0, c1, c2, c3)`; `form` names the four in help texts.
+    pub(crate) fn quadruple(
+        &mut self,
+        node: &Node<'_>,
+        field: &str,
+        form: &str,
+        quantity: &Quantity,
+    ) -> Option<[f64; 4]> {
+        let nodes = self.numbers_of(node, field, form, ["four numbers", "in all four"], 4)?;
+        // All four are checked before the first failure counts, so that each is reported.
+        let values: Vec<Option<f64>> = nodes.iter().map(|node| self.number(node, field, quantity)).collect();
+        let values: Option<Vec<f64>> = values.into_iter().collect();
+        values?.try_into().ok()
+    }
+
+    /// The values of a tuple of `count` numbers, which `words` spell.
+    fn numbers_of<'n>(
+        &mut self,
+        node: &Node<'n>,
+        field: &str,
+        form: &str,
+        [numbers, in_all]: [&str; 2],
+        count: usize,
+    ) -> Option<Vec<Node<'n>>> {
+        let expected = format!("{numbers} `{form}`");
         match node.shape() {
-            Shape::Tuple(None, nodes) if nodes.len() == 3 => self.three(node, &nodes, field, quantity),
+            Shape::Tuple(None, nodes) if nodes.len() == count => return Some(nodes),
             Shape::List(nodes) => {
-                let texts: Vec<&str> = nodes.iter().take(3).map(Node::text).collect();
-                let help = if nodes.len() == 3 && texts.iter().all(|text| text.len() < 24) {
+                let texts: Vec<&str> = nodes.iter().take(count).map(Node::text).collect();
+                let help = if nodes.len() == count && texts.iter().all(|text| text.len() < 24) {
                     format!("write round brackets: `{field}: ({})`", texts.join(", "))
                 } else {
                     format!("write `{field}: {form}`")
                 };
                 self.wrong_type(node, field, &expected, help);
-                None
             }
             Shape::Number(_) => {
-                let text = node.text();
-                let help =
-                    format!("for the same value in all three, write `{field}: ({text}, {text}, {text})`");
+                let texts = vec![node.text(); count].join(", ");
+                let help = format!("for the same value {in_all}, write `{field}: ({texts})`");
                 self.wrong_type(node, field, &expected, help);
-                None
             }
-            _ => {
-                self.wrong_type(node, field, &expected, format!("write `{field}: {form}`"));
-                None
-            }
+            _ => self.wrong_type(node, field, &expected, format!("write `{field}: {form}`")),
         }
+        None
     }
 
     fn three(
@@ -204,7 +265,7 @@ impl Decoder {
         owner: &'static str,
         head: Span,
         entries: Vec<Entry<'a>>,
-        known: &'static [&'static str],
+        known: &[&'static str],
     ) -> Fields<'a> {
         self.fields_and_groups(owner, head, entries, known, &[])
     }
@@ -215,7 +276,7 @@ impl Decoder {
         owner: &'static str,
         head: Span,
         entries: Vec<Entry<'a>>,
-        known: &'static [&'static str],
+        known: &[&'static str],
         grouped: &[(&'static str, &'static str)],
     ) -> Fields<'a> {
         let mut fields = Fields { owner, head, entries: Vec::new(), misspelt: Vec::new() };

@@ -75,7 +75,7 @@ pub(crate) fn decode_material(
             decoder.report(
                 Diagnostic::error("the fields of `Material` have no names")
                     .label(name.span, "expected `name: value` in the brackets")
-                    .help("for example `Material(profile: \"exponential_dipole_searchlight\", …)`"),
+                    .help("for example `Material(profile: \"two_exponential_dipole_searchlight\", …)`"),
             );
             return None;
         }

@@ -9,7 +9,7 @@ mod profile;
 mod quantity;
 mod rounded;
 
-pub(crate) use decoder::{Decoder, Given, Triple};
+pub(crate) use decoder::{Decoder, Given, Tables, Triple};
 pub(crate) use material::{LengthGiven, MaterialFile, SCHEMA_VERSION, decode_material};
 pub(crate) use profile::{ProfileExpression, ProfileFile, decode_profile_file};
 pub(crate) use rounded::rounded;

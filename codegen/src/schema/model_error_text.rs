@@ -57,25 +57,37 @@ pub(super) fn describe(error: &ModelError, head: &Span, spans: &BTreeMap<String,
             "exponential_weight",
             format!("the exponential's weight is {} {}", rounded(*weight), at(surface_albedo)),
             "w(A) must be from 0 to 1",
-            "w(A) = constant + linear A + quadratic A² must stay within [0, 1] for all A in [0, 1]",
+            "the polynomial `exponential_weight` must stay within [0, 1] for all A in [0, 1]",
         ),
         ModelError::ExponentialLengthNotPositive { length, surface_albedo } => (
             "exponential_length",
             format!("the exponential's length is {} {}", rounded(*length), at(surface_albedo)),
             "d(A) must be above 0",
-            "d(A) = constant + linear A + quadratic A² must stay above 0 for all A in [0, 1]",
+            "the polynomial `exponential_length` must stay above 0 for all A in [0, 1]",
+        ),
+        ModelError::ShareOutOfRange { coefficient, value } => (
+            coefficient,
+            format!("`{coefficient}` is {}", rounded(*value)),
+            "expected a share from 0 to 1",
+            "it divides light between two parts: 0 gives all to the first, 1 all to the second",
+        ),
+        ModelError::RatioNotPositive { coefficient, value } => (
+            coefficient,
+            format!("`{coefficient}` is {}", rounded(*value)),
+            "expected a ratio above 0",
+            "it is a length in multiples of another: 1 makes both equal",
         ),
         ModelError::DipoleDepthNotPositive { depth, surface_albedo } => (
             "dipole_depth",
             format!("the dipole's depth is {} {}", rounded(*depth), at(surface_albedo)),
             "z(A) must be above 0",
-            "z(A) = constant + linear A + quadratic A² must stay above 0 for all A in [0, 1]",
+            "the polynomial `dipole_depth` must stay above 0 for all A in [0, 1]",
         ),
         ModelError::NegativeDipoleAttenuation { attenuation, surface_albedo } => (
             "dipole_attenuation",
             format!("the dipole's attenuation is {} {}", rounded(*attenuation), at(surface_albedo)),
             "s(A) must be 0 or more",
-            "s(A) = (1 - A)(constant + linear A + quadratic A²) must not be negative for any A in [0, 1]",
+            "the polynomial `dipole_attenuation` must not be negative for any A in [0, 1]",
         ),
         _ => (
             "",
@@ -93,6 +105,8 @@ pub(super) fn describe(error: &ModelError, head: &Span, spans: &BTreeMap<String,
             | ModelError::VarianceNotPositive { .. }
             | ModelError::NegativeWeight { .. }
             | ModelError::WeightsSumToZero { .. }
+            | ModelError::ShareOutOfRange { .. }
+            | ModelError::RatioNotPositive { .. }
     );
     if of_coefficients_alone {
         diagnostic

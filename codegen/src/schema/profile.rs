@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use subsurface_profile::{
     BurleyModel, BurleyShape, Channel, ExponentialDipoleModel, GaussianSumModel, GaussianTerm, Length,
     Medium, Model, ModelError, PolynomialA, PolynomialB, PolynomialC, PolynomialModel,
+    TwoExponentialDipoleModel,
 };
 
 use crate::diagnostics::Diagnostic;
@@ -44,7 +45,8 @@ pub(crate) struct InlineModel {
     pub(crate) coefficients: BTreeMap<String, Span>,
 }
 
-const MODELS: [&str; 4] = ["Burley", "Polynomial", "GaussianSum", "ExponentialDipole"];
+const MODELS: [&str; 6] =
+    ["Burley", "Polynomial", "GaussianSum", "ExponentialDipole", "TwoExponentialDipole", "Tabulated"];
 
 /// Surface albedos at which a model must have a profile. A texture may give any from 0 to 1 per pixel, so a model that
 /// fails somewhere is refused; 32 steps find a failure wider than 0.03, and both ends have their own limits.
@@ -111,6 +113,14 @@ pub(crate) fn decode_profile(
             let entries = body.fields(decoder, &name)?;
             exponential_dipole(decoder, &name, entries)
         }
+        "TwoExponentialDipole" => {
+            let entries = body.fields(decoder, &name)?;
+            two_exponential_dipole(decoder, &name, entries)
+        }
+        "Tabulated" => {
+            let entries = body.fields(decoder, &name)?;
+            tabulated(decoder, &name, entries)
+        }
         _ => {
             unknown_model(decoder, &name);
             None
@@ -149,7 +159,9 @@ fn example(model: &str) -> &'static str {
         "Burley" => "Burley(parametrization: Searchlight)",
         "Polynomial" => "Polynomial(coefficients: Liang2023)",
         "GaussianSum" => "GaussianSum([(variance_mm2: 1.0, weight: 1.0)])",
-        _ => "ExponentialDipole(entry: Searchlight)",
+        "Tabulated" => "Tabulated(file: \"my_table.csv\")",
+        "ExponentialDipole" => "ExponentialDipole(entry: Searchlight)",
+        _ => "TwoExponentialDipole(entry: Searchlight)",
     }
 }
 
@@ -424,6 +436,67 @@ fn exponential_dipole(decoder: &mut Decoder, name: &Name<'_>, entries: Vec<Entry
     Decoded::new(Model::ExponentialDipole(model), spans)
 }
 
+fn two_exponential_dipole(
+    decoder: &mut Decoder,
+    name: &Name<'_>,
+    entries: Vec<Entry<'_>>,
+) -> Option<Decoded> {
+    const LISTS: [&str; 4] =
+        ["exponential_weight", "exponential_length", "dipole_depth", "dipole_attenuation"];
+    const NUMBERS: [&str; 4] = ["short_weight", "short_length", "second_weight", "second_depth"];
+    const ENTRIES: [&str; 4] = ["Searchlight", "Diffuse", "SearchlightEta1_4", "DiffuseEta1_4"];
+    const FORM: &str = "(constant, linear, quadratic, cubic)";
+    let known: Vec<&'static str> = std::iter::once("entry").chain(LISTS).chain(NUMBERS).collect();
+    let fields = decoder.fields("`TwoExponentialDipole`", name.span.clone(), entries, &known);
+    let spelled = LISTS.iter().chain(&NUMBERS).find_map(|key| fields.get(key));
+    if let Some(entry) = fields.get("entry") {
+        if let Some(first) = spelled {
+            conflict(decoder, &entry.key, &first.key, "an entry, or all the coefficients");
+            return None;
+        }
+        let model = match choice(decoder, &entry.value, "entry", &ENTRIES)? {
+            "Searchlight" => TwoExponentialDipoleModel::SEARCHLIGHT,
+            "Diffuse" => TwoExponentialDipoleModel::DIFFUSE,
+            "SearchlightEta1_4" => TwoExponentialDipoleModel::SEARCHLIGHT_ETA_1_4,
+            _ => TwoExponentialDipoleModel::DIFFUSE_ETA_1_4,
+        };
+        return Decoded::new(Model::TwoExponentialDipole(model), BTreeMap::new());
+    }
+    if spelled.is_none() {
+        let all = LISTS.into_iter().chain(NUMBERS);
+        let help = format!("add `entry: …`, one of {}, or all of {}", list(ENTRIES), list(all));
+        decoder.missing("`TwoExponentialDipole`", &name.span, "entry", help);
+        return None;
+    }
+    let mut spans = BTreeMap::new();
+    let lists = LISTS.map(|key| {
+        let help = format!("add `{key}: {FORM}`, the coefficients of 1, x, x² and x³, x = 6A/(1 + 5A)");
+        fields.required(decoder, key, &help, |decoder, node| {
+            spans.insert(key.to_owned(), node.span());
+            decoder.quadruple(node, key, FORM, &COEFFICIENT)
+        })
+    });
+    let numbers = NUMBERS.map(|key| coefficient(decoder, &fields, &mut spans, "", key));
+    let (
+        [Some(exponential_weight), Some(exponential_length), Some(dipole_depth), Some(dipole_attenuation)],
+        [Some(short_weight), Some(short_length), Some(second_weight), Some(second_depth)],
+    ) = (lists, numbers)
+    else {
+        return None;
+    };
+    let model = TwoExponentialDipoleModel {
+        exponential_weight,
+        exponential_length,
+        dipole_depth,
+        dipole_attenuation,
+        short_weight,
+        short_length,
+        second_weight,
+        second_depth,
+    };
+    Decoded::new(Model::TwoExponentialDipole(model), spans)
+}
+
 fn gaussian_sum(decoder: &mut Decoder, node: &Node<'_>) -> Option<Decoded> {
     let Shape::List(nodes) = node.shape() else {
         let help = format!("for example `{}`", example("GaussianSum"));
@@ -464,6 +537,22 @@ fn gaussian_term(decoder: &mut Decoder, node: &Node<'_>) -> Option<GaussianTerm>
         _ => decoder.triple(node, "weight", "(red, green, blue)", &WEIGHT).map(|triple| triple.values),
     });
     Some(GaussianTerm { variance_mm2: variance?, weight: weight? })
+}
+
+fn tabulated(decoder: &mut Decoder, name: &Name<'_>, entries: Vec<Entry<'_>>) -> Option<Decoded> {
+    const HELP: &str = "add `file: \"my_table.csv\"`, a CSV file beside this one";
+    let fields = decoder.fields("`Tabulated`", name.span.clone(), entries, &["file"]);
+    let file = fields.required(decoder, "file", HELP, |decoder, node| decoder.text(node, "file"))?;
+    if file.value.is_empty() || file.value.contains('\\') {
+        decoder.report(
+            Diagnostic::error(format!("`{}` is no path of a table", shortened(&file.value)))
+                .label(file.span, "expected the path of a CSV file")
+                .help("write a path relative to this file, with `/` between folders: `\"tables/mine.csv\"`"),
+        );
+        return None;
+    }
+    let model = decoder.table(&file)?;
+    Decoded::new(Model::Tabulated(model), BTreeMap::from([("file".to_owned(), file.span)]))
 }
 
 /// All that is wrong with the coefficients, and the first surface albedo at which they give no profile.

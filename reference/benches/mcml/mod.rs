@@ -51,7 +51,12 @@ pub(crate) fn reflectance(single_scattering_albedo: f64, photons: u32, seed: u64
 }
 
 /// One photon packet; the weight that left through the surface.
-fn launch(random: &mut Xoshiro256PlusPlus, albedo: f64, absorbed: &mut [f64], reflected: &mut [f64]) -> f64 {
+fn launch(
+    random: &mut Xoshiro256PlusPlus,
+    single_scattering_albedo: f64,
+    absorbed: &mut [f64],
+    reflected: &mut [f64],
+) -> f64 {
     let line = |x: f64| ((x / SPACING) as usize).min(LINES - 1);
     let (mut position, mut direction, mut weight) = ([0.0, 0.0, 0.0_f64], [0.0, 0.0, 1.0_f64], 1.0);
     loop {
@@ -69,7 +74,7 @@ fn launch(random: &mut Xoshiro256PlusPlus, albedo: f64, absorbed: &mut [f64], re
             reflected[ring * ANGLES + (angle as usize).min(ANGLES - 1)] += weight;
             return weight;
         }
-        let drop = weight * (1.0 - albedo);
+        let drop = weight * (1.0 - single_scattering_albedo);
         weight -= drop;
         absorbed[ring * LINES + line(position[2])] += drop;
         direction = scatter(random, direction, 0.0);

@@ -78,8 +78,8 @@ pub(crate) fn walk(
     None
 }
 
-/// A new direction. Wang, Jacques, Zheng 1995, "MCML - Monte Carlo modeling of light transport in multi-layered
-/// tissues", eq. (3.28) and (3.30).
+/// A new direction, as in MCML (Wang, Jacques, Zheng 1995, "MCML - Monte Carlo modeling of light transport in
+/// multi-layered tissues").
 pub(crate) fn scatter(random: &mut Xoshiro256PlusPlus, [x, y, z]: [f64; 3], g: f64) -> [f64; 3] {
     let xi = uniform(random);
     let cosine = if g == 0.0 {

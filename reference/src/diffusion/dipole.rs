@@ -7,7 +7,7 @@ use super::{Medium, Reflectance, legal_radius};
 /// Depth of the source of a dipole, in reduced mean free paths: where a beam's light has its mean.
 pub(super) const SOURCE_DEPTH: f64 = 1.0;
 
-/// The dipole of Jensen, Marschner, Levoy and Hanrahan (2001, equation 4).
+/// The dipole of Jensen, Marschner, Levoy and Hanrahan (2001).
 ///
 /// D = 1/(3σt′), z_r = 1/σt′, z_v = z_r + 4AD with A = (1 + F_dr)/(1 - F_dr); F_dr is the integral of the Fresnel
 /// reflectance where the paper has a fit, so at a matched boundary A is 1 (the fit gives 1.003).
@@ -22,8 +22,8 @@ impl ClassicalDipole {
     /// The dipole as published: a source of power α′.
     ///
     /// The classical theory approximates all of the light that leaves such a source, also what leaves the medium
-    /// without another scattering. Jensen et al. add single scattering to it nevertheless (their equation 3, S = S_d
-    /// + S⁽¹⁾), and so count it twice.
+    /// without another scattering. Jensen et al. add single scattering to it nevertheless (S = S_d + S⁽¹⁾), and so
+    /// count it twice.
     pub fn new(medium: Medium) -> ClassicalDipole {
         ClassicalDipole::with_power(medium, medium.reduced_albedo())
     }
@@ -52,8 +52,7 @@ impl Reflectance for ClassicalDipole {
         s * s * self.power * self.source.field(1.0, legal_radius(radius) * s, SOURCE_DEPTH).flux
     }
 
-    /// α′/2 (e^{-σtr z_r} + e^{-σtr z_v}): Jensen and Buhler 2002, equation 15, which writes out σtr z_r =
-    /// √(3(1 - α′)).
+    /// α′/2 (e^{-σtr z_r} + e^{-σtr z_v}): Jensen and Buhler 2002, who write out σtr z_r = √(3(1 - α′)).
     fn total(&self) -> f64 {
         self.power * self.source.total(SOURCE_DEPTH).flux
     }

@@ -24,8 +24,9 @@ pub enum MediumError {
 impl Medium {
     /// A medium with Henyey-Greenstein scattering.
     ///
-    /// `single_scattering_albedo` α = σs/σt in [0, 1]; `anisotropy` g in (-1, 1), the mean cosine of the scattering
-    /// angle; `refractive_index` relative to the outside, in [1, [`HalfSpace::MAXIMUM_REFRACTIVE_INDEX`]].
+    /// `single_scattering_albedo` α = σs/σt in [0, 1]; `anisotropy` g in (-1, [`HalfSpace::MAXIMUM_ANISOTROPY`]], the
+    /// mean cosine of the scattering angle; `refractive_index` relative to the outside, in
+    /// [1, [`HalfSpace::MAXIMUM_REFRACTIVE_INDEX`]].
     ///
     /// # Errors
     ///
@@ -57,7 +58,7 @@ impl Medium {
         self.single_scattering_albedo
     }
 
-    /// g, the mean cosine of the scattering angle, in (-1, 1).
+    /// g, the mean cosine of the scattering angle, in (-1, 0.999].
     pub fn anisotropy(&self) -> f64 {
         self.half_space.anisotropy()
     }

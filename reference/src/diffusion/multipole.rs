@@ -8,7 +8,7 @@ use super::dipole::SOURCE_DEPTH;
 use super::source::PointSource;
 use super::{Medium, Reflectance, legal_radius};
 
-/// The multipole of Donner and Jensen (2005, section 3.2) for a slab with the same medium on both sides.
+/// The multipole of Donner and Jensen (2005) for a slab with the same medium on both sides.
 ///
 /// The classical dipole (source of power α′ at z_r = 1/σt′, D = 1/(3σt′), A as in
 /// [`ClassicalDipole`](super::ClassicalDipole)), mirrored at both extrapolated surfaces without end. Where the paper
@@ -42,6 +42,9 @@ pub enum ThicknessError {
         reduced_mean_free_path: f64,
     },
 }
+
+/// Reduced mean free paths. The images lie up to 513 times as deep, and that must not overflow.
+const LARGEST_THICKNESS: f64 = 1e300;
 
 /// A slab between two surfaces at which the fluence vanishes, with a source in it. Reduced mean free paths.
 #[derive(Clone, Copy, Debug)]
@@ -120,7 +123,7 @@ impl Multipole {
         let reflection = Boundary::new(medium.refractive_index()).classical_reflection();
         let source = PointSource::classical(medium.reduced_absorption(), reflection);
         let slab = Slab {
-            thickness: thickness * reduced_extinction,
+            thickness: (thickness * reduced_extinction).min(LARGEST_THICKNESS),
             extrapolation: source.extrapolation(),
             transport_extinction: source.transport_extinction(),
         };

@@ -29,7 +29,7 @@ pub(super) fn fresnel(from: f64, to: f64, cosine: f64) -> Interface {
 }
 
 /// Reflectance of a pile of clear plates for perpendicular light, with all reflections between them added without
-/// interference: R = r + (1 − r)² R′/(1 − r R′) from the lowest interface up (\[WJZ95\] eq. 8 for one plate).
+/// interference: R = r + (1 − r)² R′/(1 − r R′) from the lowest interface up (\[WJZ95\] for one plate).
 ///
 /// `indices` are those of all media that the light passes, first and last included.
 pub(super) fn clear_reflectance(indices: &[f64]) -> f64 {

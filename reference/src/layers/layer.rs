@@ -101,16 +101,24 @@ impl LayerStack {
     ///
     /// # Errors
     ///
-    /// [`LayerError`] when an index is outside [0.01, 100], when there is no layer, and when a layer is so thick and
-    /// absorbs so little that its packets would not come to an end (above 10⁴ expected scattering events).
+    /// [`LayerError`] when an index is outside [0.01, 100], when there is no layer, and when a layer absorbs so
+    /// little and is so thick, or of so large an index, that its packets would not come to an end (above 10⁴ expected scattering events).
     pub fn new(above: f64, layers: Vec<Layer>, below: f64) -> Result<Self, LayerError> {
         check_refractive_index(above)?;
         check_refractive_index(below)?;
         if layers.is_empty() || layers.len() > LARGEST_COUNT {
             return Err(LayerError::LayerCount { count: layers.len() });
         }
+        // Light leaves on the side where the smallest index on its way is larger.
+        let mut lowest_below = vec![below; layers.len()];
+        for index in (1..layers.len()).rev() {
+            lowest_below[index - 1] = lowest_below[index].min(layers[index].refractive_index());
+        }
+        let mut lowest_above = above;
         for (index, layer) in layers.iter().enumerate() {
-            let scatterings = expected_scatterings(layer);
+            let outside = lowest_above.max(lowest_below[index]);
+            lowest_above = lowest_above.min(layer.refractive_index());
+            let scatterings = expected_scatterings(layer, layer.refractive_index() / outside);
             if scatterings > 1e4 {
                 return Err(LayerError::Endless { layer: index + 1, scatterings });
             }

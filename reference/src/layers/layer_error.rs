@@ -45,6 +45,12 @@ pub enum LayerError {
         /// What was given, cm.
         value: f64,
     },
+    /// A name that would not survive in a file of lines and words.
+    #[error("output name {name:?}: expected a file name without spaces, control characters and `#`")]
+    OutputName {
+        /// What was given.
+        name: String,
+    },
     /// A stack without layers, or with more than 32 767.
     #[error("{count} layers: expected 1 to 32767")]
     LayerCount {
@@ -54,7 +60,7 @@ pub enum LayerError {
     /// A layer in which packets would wander practically for ever.
     #[error(
         "layer {layer} scatters a packet about {scatterings:.1e} times before it leaves or is absorbed (the limit is \
-         1e4); give the layer a smaller thickness or a larger absorption coefficient"
+         1e4); give the layer a smaller thickness, a larger absorption coefficient or an index nearer to that outside"
     )]
     Endless {
         /// Which layer, from 1.

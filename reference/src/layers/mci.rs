@@ -1,7 +1,6 @@
 //! Reader of MCML's input files (`.mci`, file version 1.0).
 //!
-//! One line for each group of values, in a fixed order; `#` begins a comment, empty lines do not count (\[WJZ95\] and
-//! chapter 9.1 of MCML's manual). MCML itself reads with `sscanf` and ignores what it does not understand; this reader
+//! One line for each group of values, in a fixed order; `#` begins a comment, empty lines do not count (MCML's manual). MCML itself reads with `sscanf` and ignores what it does not understand; this reader
 //! refuses it, since a misread number makes a wrong result look right.
 
 use std::collections::HashMap;

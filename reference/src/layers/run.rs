@@ -7,6 +7,7 @@ use rand_xoshiro::rand_core::SeedableRng;
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
 use crate::Estimate;
+use crate::random::mix;
 
 use super::grid::Grid;
 use super::layer::LayerStack;
@@ -60,7 +61,7 @@ impl LayerRun {
     ///
     /// # Errors
     ///
-    /// [`LayerError::NoPhotons`] for none.
+    /// [`LayerError::NoPhotons`] for none; [`LayerError::OutputName`] for a name that MCML's files cannot hold.
     pub fn new(
         output_name: impl Into<String>,
         output_format: OutputFormat,
@@ -71,7 +72,12 @@ impl LayerRun {
         if photons == 0 {
             return Err(LayerError::NoPhotons);
         }
-        Ok(Self { output_name: output_name.into(), output_format, photons, grid, stack })
+        let output_name = output_name.into();
+        let breaks_a_line = |c: char| c.is_whitespace() || c.is_control() || c == '#';
+        if output_name.is_empty() || output_name.contains(breaks_a_line) {
+            return Err(LayerError::OutputName { name: output_name });
+        }
+        Ok(Self { output_name, output_format, photons, grid, stack })
     }
 
     /// Output file as the input names it. Nothing here opens it; a caller decides whether to trust the path.
@@ -156,12 +162,4 @@ fn stream(seed: u64, batch: u64) -> Xoshiro256PlusPlus {
         bytes.copy_from_slice(&word.to_le_bytes());
     }
     Xoshiro256PlusPlus::from_seed(state)
-}
-
-/// One step of SplitMix64 (Steele, Lea and Flood 2014, "Fast splittable pseudorandom number generators", fig. 17).
-fn mix(value: u64) -> u64 {
-    let mut z = value.wrapping_add(0x9e37_79b9_7f4a_7c15);
-    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    z ^ (z >> 31)
 }

@@ -7,7 +7,7 @@ use super::interface::{clear_reflectance, fresnel};
 use super::layer::LayerStack;
 use super::tally::{Tally, quantize};
 
-/// Below this weight a packet plays roulette, and survives with [`SURVIVAL`] (\[WJZ95\] section 3.9).
+/// Below this weight a packet plays roulette, and survives with [`SURVIVAL`] (\[WJZ95\]).
 const ROULETTE_BELOW: f64 = 1e-4;
 const SURVIVAL: f64 = 0.1;
 
@@ -218,7 +218,7 @@ impl Packet {
         let (side_cosine, side_sine) = point_on_circle(rng);
         let [x, y, z] = self.direction;
         // An orthonormal basis without a singular direction: Duff et al. 2017, "Building an Orthonormal Basis,
-        // Revisited", listing 3.
+        // Revisited".
         let sign = 1.0_f64.copysign(z);
         let a = -1.0 / (sign + z);
         let b = x * y * a;

@@ -1,7 +1,7 @@
 //! MCML's input files, good and bad.
 
 use proptest::prelude::*;
-use subsurface_reference::layers::{Layer, LayerError, LayerStack, OutputFormat, parse_mci};
+use subsurface_reference::layers::{Grid, Layer, LayerError, LayerRun, LayerStack, OutputFormat, parse_mci};
 
 /// A run of two layers; line numbers are those of the messages below.
 const GOOD: &str = "\
@@ -117,8 +117,8 @@ fn values_out_of_range() {
         (
             10,
             "1.4 0 200 0.9 1e8",
-            "line 10: layer 2 scatters a packet about 2.0e10 times before it leaves or is absorbed (the limit is 1e4); \
-             give the layer a smaller thickness or a larger absorption coefficient",
+            "line 10: layer 2 scatters a packet about 3.9e10 times before it leaves or is absorbed (the limit is 1e4); \
+             give the layer a smaller thickness, a larger absorption coefficient or an index nearer to that outside",
         ),
     ] {
         assert_eq!(message(&with_line(line, text)), expected);
@@ -223,7 +223,33 @@ fn stacks_made_without_a_file_are_checked_too() {
         Err(LayerError::Endless { layer: 1, .. })
     ));
     assert!(alone(Layer::new(1.0, 1e-3, 10.0, 0.0, 1e4).unwrap()).is_ok());
+    // Total reflection can be as endless, unless the light is absorbed or there is none to be scattered.
+    let trapping = |absorption, scattering| {
+        LayerStack::new(0.01, vec![Layer::new(100.0, absorption, scattering, 0.0, 1.0).unwrap()], 0.01)
+    };
+    assert!(matches!(trapping(0.0, 1e-3), Err(LayerError::Endless { layer: 1, .. })));
+    assert!(trapping(1.0, 1.0).is_ok() && trapping(0.0, 0.0).is_ok());
+    // A gap of air keeps light in; the way out on the other side does not count its index.
+    let stack = |below| {
+        let [dense, gap] = [200.0, 1.0].map(|ratio| Layer::new(0.5 * ratio, 0.0, 1.0, 0.0, 1.0).unwrap());
+        LayerStack::new(0.5, vec![gap, dense], below)
+    };
+    assert!(matches!(stack(0.5), Err(LayerError::Endless { layer: 2, .. })));
+    assert!(stack(50.0).is_ok());
     assert!(alone(Layer::new(1.0, 0.0, 10.0, 0.0, 1.0).unwrap()).is_ok());
+}
+
+#[test]
+fn output_names_fit_into_a_file_of_words() {
+    let layer = Layer::new(1.0, 1.0, 0.0, 0.0, 1.0).unwrap();
+    let named = |name: &str| {
+        let stack = LayerStack::new(1.0, vec![layer], 1.0).unwrap();
+        LayerRun::new(name, OutputFormat::Ascii, 1, Grid::new(1.0, 1.0, 1, 1, 1).unwrap(), stack)
+    };
+    assert!(named("café.mco").is_ok());
+    for name in ["", "two words", "two\nlines", "a#b", "a\u{0}b"] {
+        assert_eq!(named(name).unwrap_err(), LayerError::OutputName { name: name.to_owned() });
+    }
 }
 
 /// Lines made of what such files hold, so that some get far.

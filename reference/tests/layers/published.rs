@@ -13,8 +13,8 @@ const FIVE_DECIMALS: f64 = 0.29e-5;
 
 #[test]
 fn slab_of_van_de_hulst() {
-    // van de Hulst 1980, "Multiple Light Scattering", vol. 2, table 35, as quoted in table 1 of Wang, Jacques and Zheng
-    // 1995: albedo 0.9, optical thickness 2, g = 0.75, matched. MCML: 0.09734 ± 0.00035 and 0.66096 ± 0.00020.
+    // van de Hulst 1980, "Multiple Light Scattering", as quoted by Wang, Jacques and Zheng 1995: single-scattering
+    // albedo 0.9, optical thickness 2, g = 0.75, matched. MCML: 0.09734 ± 0.00035 and 0.66096 ± 0.00020.
     // A million photons: standard errors of 2.3e-4 and 3.3e-4, so that an error of 1.5 per mille of the energy fails.
     let slab = simulate(1.0, &[[1.0, 10.0, 90.0, 0.75, 0.02]], 1.0, 1_000_000, 1);
     let (reflected, transmitted) = (slab.diffuse_reflectance, slab.transmittance);
@@ -26,8 +26,8 @@ fn slab_of_van_de_hulst() {
 
 #[test]
 fn half_space_of_giovanelli() {
-    // Giovanelli 1955, "Reflection by semi-infinite diffusers", Optica Acta 2, 153–162, as quoted in table 2 of Wang,
-    // Jacques and Zheng 1995: albedo 0.9, isotropic, n = 1.5 against 1, total reflectance 0.2600.
+    // Giovanelli 1955, "Reflection by semi-infinite diffusers", Optica Acta 2, 153–162, as quoted by Wang, Jacques
+    // and Zheng 1995: single-scattering albedo 0.9, isotropic, n = 1.5 against 1, total reflectance 0.2600.
     // MCML: 0.25907 ± 0.00170.
     let half_space = simulate(1.0, &[[1.5, 10.0, 90.0, 0.0, 1e8]], 1.0, 1_000_000, 2);
     let total = half_space.total_reflectance();

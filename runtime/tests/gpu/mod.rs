@@ -3,6 +3,7 @@
 #![allow(dead_code, unreachable_pub, reason = "each test binary uses its own part of this module")]
 
 use subsurface_codegen::{Compilation, Compiler};
+use subsurface_profile::{Channel, Medium, Model};
 use subsurface_runtime::{Extent, Readback, SubsurfaceKernel, Target, wgpu};
 
 /// A device and its queue.
@@ -80,10 +81,57 @@ pub fn compile(files: &[(&str, &str)]) -> Compilation {
         .unwrap_or_else(|report| panic!("{report}"))
 }
 
+/// Every profile that the device can evaluate: the published ones, and a table.
+pub fn stems() -> Vec<&'static str> {
+    Model::PUBLISHED.into_iter().chain(["tabulated"]).collect()
+}
+
+/// The files of the profile `tabulated`: another profile by bins, at surface albedos with radii of their own.
+pub fn table_files() -> [(String, String); 2] {
+    let model = Model::published("exponential_dipole_searchlight").expect("a published stem");
+    let mut csv = String::from("surface_albedo,r_lo,r_hi,radial_reflectance\n");
+    for (surface_albedo, end) in [(0.05, 20.0), (0.4, 60.0), (0.8, 60.0), (0.97, 200.0)] {
+        let medium = Medium::new(surface_albedo, 1.0).expect("in the domain");
+        let profile = model.profile(medium, Channel::Red).expect("a published model");
+        let edge = |bin: i32| end * (f64::from(bin) / 70.0).powi(3);
+        for bin in 0..70 {
+            let (r_lo, r_hi) = (edge(bin), edge(bin + 1));
+            let energy = surface_albedo * (profile.radial_tail(r_lo) - profile.radial_tail(r_hi));
+            csv += &format!("{surface_albedo},{r_lo:?},{r_hi:?},{:?}\n", energy / (r_hi - r_lo));
+        }
+    }
+    let profile = "Tabulated(file: \"tables/mine.csv\")".to_owned();
+    [("profiles/tabulated.ron".to_owned(), profile), ("profiles/tables/mine.csv".to_owned(), csv)]
+}
+
+/// The file of the profile `exponentials_alone`: no share of the light for a dipole that would reach far.
+pub fn exponentials_alone_file() -> (String, String) {
+    let profile = "TwoExponentialDipole(exponential_weight: (1, 0, 0, 0), exponential_length: (10, 0, 0, 0), \
+                   dipole_depth: (1000, 0, 0, 0), dipole_attenuation: (0, 0, 0, 0), short_weight: 0.9, \
+                   short_length: 0.01, second_weight: 0, second_depth: 2)";
+    ("profiles/exponentials_alone.ron".to_owned(), profile.to_owned())
+}
+
+/// The model of one of [`stems`], or of `exponentials_alone`, in f64.
+pub fn model(stem: &str) -> Model {
+    Model::published(stem).unwrap_or_else(|| {
+        let material = format!(
+            "Material(profile: {stem:?}, mean_free_path_mm: (1, 1, 1), surface_albedo: (0.5, 0.5, 0.5))"
+        );
+        let files =
+            table_files().into_iter().chain([exponentials_alone_file(), ("only.ron".to_owned(), material)]);
+        let loaded = subsurface_codegen::load_memory(files);
+        let set = loaded.set.unwrap_or_else(|| panic!("{}", loaded.report));
+        set.materials[0].profile.model.clone()
+    })
+}
+
 /// The kernel of a compilation.
 pub fn kernel(compilation: &Compilation) -> SubsurfaceKernel {
     let (wgsl, table) = (compilation.wgsl.clone(), compilation.material_table.clone());
-    SubsurfaceKernel::new(wgsl, table, compilation.material_names()).expect("a compilation makes a kernel")
+    SubsurfaceKernel::new(wgsl, table, compilation.material_names())
+        .expect("a compilation makes a kernel")
+        .with_profile_tables(compilation.profile_tables.clone())
 }
 
 /// One value per pixel, rows from the top.

@@ -1,16 +1,28 @@
-//! `subsurface profile eval` and `subsurface profile sample`.
+//! `subsurface profile`: profiles evaluated, judged, fitted and drawn.
 
-use super::{material_set, number};
+mod coefficients;
+mod compare;
+mod curve;
+mod eval;
+mod fit;
+mod model;
+mod plot;
+mod quantity;
+mod ron;
+mod theory;
+mod truth;
+
+use super::output;
 use crate::failure::Failure;
-use clap::{Args, Subcommand, ValueEnum};
-use std::fmt::Write as _;
-use std::io::Write as _;
-use std::path::{Path, PathBuf};
-use subsurface_codegen::{load_profile, load_profile_file};
-use subsurface_profile::{Channel, Length, Medium, Model, RadialProfile};
+use clap::{Args, Subcommand};
 
-/// Evaluate or sample a radial diffusion profile on the CPU, in double precision.
+/// Evaluate, judge, fit and draw radial diffusion profiles, in double precision.
 #[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  subsurface profile eval --model burley_diffuse --surface-albedo 0.8 --mean-free-path-mm 1.3 --radii 0,0.5,1
+  subsurface profile compare
+  subsurface profile plot --model burley_searchlight --surface-albedo 0.8 --out burley.svg")]
 pub struct ProfileArguments {
     /// What to do with the profile.
     #[command(subcommand)]
@@ -26,212 +38,44 @@ pub enum ProfileCommand {
     /// radius_mm; area_pdf = R(r)/A per unit area (1/mm², may be inf at 0); radial_pdf = 2πr R(r)/A per unit length
     /// (1/mm); radial_cdf = the fraction of the reflected energy that leaves within the radius. Every number is
     /// printed with as many digits as it takes to read the same number back.
-    Eval(EvalArguments),
+    Eval(eval::EvalArguments),
     /// Print the radii within which given fractions of the energy leave, as CSV.
     ///
     /// The true inverse of radial_cdf: uniform random numbers become exit radii of the profile.
-    Sample(SampleArguments),
-}
-
-/// Which profile.
-#[derive(Debug, Args)]
-pub struct ProfileOf {
-    /// Stem of a file in DIR/profiles, the name of a built-in profile, or a profile file (.ron).
-    #[arg(long, value_name = "STEM|FILE.ron")]
-    pub model: String,
-    /// Surface albedo A, the total diffuse reflectance, in [0, 1].
-    #[arg(long, value_name = "A", value_parser = number::surface_albedo, allow_hyphen_values = true)]
-    pub surface_albedo: f64,
-    /// Mean free path 1/σt in mm, above 0; the diffuse mean free path 1/σtr for models parametrized by it. Gaussian
-    /// sums carry their own lengths.
-    #[arg(long, value_name = "L", value_parser = number::length_mm, allow_hyphen_values = true)]
-    pub mean_free_path_mm: f64,
-    /// Colour channel; only models with coefficients per channel (Gaussian sums) differ.
-    #[arg(long, value_enum, default_value_t)]
-    pub channel: ChannelName,
-    /// Directory of materials whose profiles STEM may name.
-    #[arg(long, value_name = "DIR", default_value = material_set::DEFAULT_DIRECTORY)]
-    pub materials: PathBuf,
-}
-
-/// A colour channel.
-#[derive(Clone, Copy, Debug, Default, ValueEnum)]
-pub enum ChannelName {
-    /// Red.
-    #[default]
-    Red,
-    /// Green.
-    Green,
-    /// Blue.
-    Blue,
-}
-
-/// Arguments of `profile eval`.
-#[derive(Debug, Args)]
-#[command(after_help = "\
-Examples:
-  subsurface profile eval --model exponential_dipole_searchlight --surface-albedo 0.83 \\
-      --mean-free-path-mm 1.3 --radii 0,0.1,1,10
-  subsurface profile eval --model my_profile.ron --surface-albedo 0.5 --mean-free-path-mm 2 --radii 1")]
-pub struct EvalArguments {
-    /// Which profile.
-    #[command(flatten)]
-    pub profile: ProfileOf,
-    /// Radii in mm, 0 or more.
-    #[arg(long, value_name = "r,r,…", required = true, value_delimiter = ',', value_parser = number::radius_mm, allow_hyphen_values = true)]
-    pub radii: Vec<f64>,
-    /// The fraction of the energy that filter_radius_mm gathers, in [0, 1).
-    #[arg(long, value_name = "Q", default_value = "0.997", value_parser = number::fraction, allow_hyphen_values = true)]
-    pub quantile: f64,
-}
-
-/// Arguments of `profile sample`.
-#[derive(Debug, Args)]
-#[command(after_help = "\
-Examples:
-  subsurface profile sample --model burley_searchlight --surface-albedo 0.83 --mean-free-path-mm 1.3 --u 0,0.5,0.997")]
-pub struct SampleArguments {
-    /// Which profile.
-    #[command(flatten)]
-    pub profile: ProfileOf,
-    /// Uniform random numbers, in [0, 1).
-    #[arg(long, value_name = "u,u,…", required = true, value_delimiter = ',', value_parser = number::fraction, allow_hyphen_values = true)]
-    pub u: Vec<f64>,
+    Sample(eval::SampleArguments),
+    /// Judge models by Monte Carlo truth: errors for each model and surface albedo.
+    ///
+    /// Each model is held against the stored truth of its own setting (perpendicular entry or diffuse entry), or
+    /// against the table given with --truth. L1 is ∫|p − t| dr of the exit radius' density 2πr R/A: half of it is
+    /// the share of the energy that leaves at wrong radii.
+    Compare(compare::CompareArguments),
+    /// Fit the coefficients of a family of models to tabulated data; print a profile file.
+    ///
+    /// The text can be saved as materials/profiles/NAME.ron and named in a material. The data are CSV: lines that
+    /// begin with # are comments, the first other line names the columns. Needed are radii in mean free paths (r_lo and
+    /// r_hi of bins, or r of points) and one of r_reflectance (r·R), reflectance (R) and radial_reflectance (2πr·R);
+    /// surface_albedo is needed where there are several, and standard_error is optional and belongs to that column.
+    Fit(fit::FitArguments),
+    /// Draw profiles and truth as a figure, SVG or PNG.
+    ///
+    /// Several models or theories make one panel per surface albedo; one model makes one panel with a colour per
+    /// surface albedo. Dots are Monte Carlo truth. Lengths are in mean free paths.
+    Plot(plot::PlotArguments),
+    /// Draw or print what a model's coefficients would best be at each surface albedo, beside the model's own.
+    ///
+    /// The model is fitted to the truth of each surface albedo alone; the numbers that come out are what the model's
+    /// functions of the albedo were made to follow.
+    Coefficients(coefficients::CoefficientsArguments),
 }
 
 /// Runs the command.
 pub fn run(arguments: &ProfileArguments) -> Result<(), Failure> {
-    let table = match &arguments.command {
-        ProfileCommand::Eval(arguments) => evaluate(arguments)?,
-        ProfileCommand::Sample(arguments) => sample(arguments)?,
-    };
-    match std::io::stdout().write_all(table.as_bytes()) {
-        // The reader has seen enough (`… | head`).
-        Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => Ok(()),
-        Err(error) => Err(Failure::new(format!("cannot print: {error}"), "check where standard output goes")),
-        Ok(()) => Ok(()),
-    }
-}
-
-fn evaluate(arguments: &EvalArguments) -> Result<String, Failure> {
-    let of = &arguments.profile;
-    let model = of.model()?;
-    let profile = of.profile(&model)?;
-    let (length_name, note) = match model.length() {
-        Length::MeanFreePath => ("mean_free_path_mm", None),
-        Length::DiffuseMeanFreePath => (
-            "diffuse_mean_free_path_mm",
-            Some(
-                "this model is parametrized by the diffuse mean free path: the length is read as 1/sigma_tr",
-            ),
-        ),
-    };
-    let mut lines = vec![
-        format!("model = {}", of.model),
-        format!("channel = {}", of.channel.name()),
-        format!("surface_albedo = {:?}", of.surface_albedo),
-        format!("{length_name} = {:?}", of.mean_free_path_mm),
-    ];
-    lines.extend(note.map(str::to_owned));
-    lines.push(format!("quantile = {:?}", arguments.quantile));
-    lines.push(format!("filter_radius_mm = {:?}", profile.filter_radius(arguments.quantile)));
-    lines.extend(profile.max_radius().map(|radius| format!("r_max_mm = {radius:?}")));
-    let mut table: String = lines.iter().map(|line| format!("# {line}\n")).collect();
-    table.push_str("radius_mm,area_pdf,radial_pdf,radial_cdf\n");
-    for radius in &arguments.radii {
-        let row =
-            [*radius, profile.area_pdf(*radius), profile.radial_pdf(*radius), profile.radial_cdf(*radius)];
-        push_row(&mut table, &row);
-    }
-    Ok(table)
-}
-
-fn sample(arguments: &SampleArguments) -> Result<String, Failure> {
-    let model = arguments.profile.model()?;
-    let profile = arguments.profile.profile(&model)?;
-    let mut table = String::from("u,radius_mm\n");
-    for u in &arguments.u {
-        push_row(&mut table, &[*u, profile.sample_radius(*u)]);
-    }
-    Ok(table)
-}
-
-/// `{:?}` of an `f64` is the shortest text that reads back as the same number.
-fn push_row(table: &mut String, row: &[f64]) {
-    for (column, value) in row.iter().enumerate() {
-        let separator = if column == 0 { "" } else { "," };
-        // Writing to a string cannot fail.
-        let _ = write!(table, "{separator}{value:?}");
-    }
-    table.push('\n');
-}
-
-impl ChannelName {
-    fn channel(self) -> Channel {
-        match self {
-            Self::Red => Channel::Red,
-            Self::Green => Channel::Green,
-            Self::Blue => Channel::Blue,
-        }
-    }
-
-    fn name(self) -> &'static str {
-        match self {
-            Self::Red => "red",
-            Self::Green => "green",
-            Self::Blue => "blue",
-        }
-    }
-}
-
-impl ProfileOf {
-    /// The model that `--model` names: a file, a file of the materials directory, or a built-in one.
-    fn model(&self) -> Result<Model, Failure> {
-        let path = Path::new(&self.model);
-        let is_file = path.extension().is_some_and(|extension| extension == "ron");
-        let in_directory = self.materials.join("profiles").join(format!("{}.ron", self.model));
-        let loaded = if is_file {
-            load_profile_file(path)
-        } else if in_directory.is_file() {
-            load_profile(&self.materials, &self.model)
-        } else {
-            return Model::published(&self.model).ok_or_else(|| self.unknown());
-        };
-        match loaded.profile {
-            Some(resolved) if !loaded.report.has_errors() => {
-                material_set::print_warnings(&loaded.report);
-                Ok(resolved.model)
-            }
-            _ => Err(material_set::failure(&loaded.report)),
-        }
-    }
-
-    fn profile(&self, model: &Model) -> Result<Box<dyn RadialProfile>, Failure> {
-        let refused = |reason: String| {
-            Failure::new(
-                format!("the profile `{}` does not exist here: {reason}", self.model),
-                "choose another surface albedo, or correct the model's coefficients",
-            )
-        };
-        let medium = Medium::new(self.surface_albedo, self.mean_free_path_mm)
-            .map_err(|reason| refused(reason.to_string()))?;
-        model.profile(medium, self.channel.channel()).map_err(|reason| refused(reason.to_string()))
-    }
-
-    fn unknown(&self) -> Failure {
-        let mut known: Vec<String> = Model::PUBLISHED.iter().map(|stem| (*stem).to_owned()).collect();
-        let files = std::fs::read_dir(self.materials.join("profiles")).into_iter().flatten().flatten();
-        let stems = files.filter_map(|entry| {
-            let path = entry.path();
-            let is_profile = path.extension().is_some_and(|extension| extension == "ron");
-            is_profile.then(|| path.file_stem().map(|stem| stem.to_string_lossy().into_owned())).flatten()
-        });
-        known.extend(stems);
-        known.sort();
-        known.dedup();
-        Failure::new(
-            format!("no profile is called `{}`", self.model),
-            material_set::suggest(&self.model, &known),
-        )
+    match &arguments.command {
+        ProfileCommand::Eval(arguments) => output::print(&eval::evaluate(arguments)?),
+        ProfileCommand::Sample(arguments) => output::print(&eval::sample(arguments)?),
+        ProfileCommand::Compare(arguments) => compare::run(arguments),
+        ProfileCommand::Fit(arguments) => fit::run(arguments),
+        ProfileCommand::Plot(arguments) => plot::run(arguments),
+        ProfileCommand::Coefficients(arguments) => coefficients::run(arguments),
     }
 }

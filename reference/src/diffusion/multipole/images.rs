@@ -10,7 +10,7 @@ use std::f64::consts::PI;
 /// 1/(8N²) of itself, and all of it is 1/(2N²) of the whole: 1e-11.
 const PAIRS: u32 = 256;
 
-/// Flux through a surface at `radius` of a source of power 1: Donner and Jensen 2005, equations 4 to 6.
+/// Flux through a surface at `radius` of a source of power 1: Donner and Jensen 2005.
 pub(super) fn flux(slab: &Slab, side: Side, radius: f64) -> f64 {
     let period = 2.0 * slab.extrapolated_thickness();
     let s = slab.transport_extinction;

@@ -53,7 +53,7 @@ mod tests {
 
     #[test]
     fn bessel_k0_has_its_tabulated_values() {
-        // Abramowitz and Stegun 1964, table 9.8.
+        // As mpmath 1.3 has them, which agree with the ten digits of Abramowitz and Stegun 1964.
         for (x, k0) in [
             (1.0, 0.421_024_438_240_708_33),
             (2.0, 0.113_893_872_749_533_44),

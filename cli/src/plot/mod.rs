@@ -1,0 +1,113 @@
+//! Figures of curves: axes with units, a legend, SVG and PNG.
+//!
+//! The central type is [`Figure`]: panels side by side that share a legend. [`Figure::to_svg`] gives the same bytes on
+//! every machine; the PNG is a rasterisation of exactly that SVG.
+
+mod axis;
+mod canvas;
+mod draw;
+pub mod ink;
+mod legend;
+mod png;
+mod strokes;
+mod thin;
+
+pub use axis::{Axis, Scale};
+pub use ink::{Colour, Dash};
+
+use crate::picture::{PictureError, file, write_png};
+use std::path::{Path, PathBuf};
+
+/// Panels side by side over one legend.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Figure {
+    /// What the figure shows, above the panels.
+    pub title: String,
+    /// From left to right; one at least.
+    pub panels: Vec<Panel>,
+}
+
+/// A pair of axes and what is drawn between them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Panel {
+    /// What sets this panel apart; empty where it is the only one.
+    pub title: String,
+    /// The horizontal axis.
+    pub x: Axis,
+    /// The vertical axis.
+    pub y: Axis,
+    /// Drawn in this order: the last lies on top.
+    pub series: Vec<Series>,
+}
+
+/// Points of one kind.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Series {
+    /// Its line in the legend. Series of the same label share that line; an empty label has none.
+    pub label: String,
+    /// Colour of the line, the dots or the area.
+    pub colour: Colour,
+    /// How the points are drawn.
+    pub mark: Mark,
+    /// In the units of the axes. What is not finite interrupts a line.
+    pub points: Vec<(f64, f64)>,
+}
+
+/// How points are drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mark {
+    /// Joined by a line.
+    Line(Dash),
+    /// As dots; those that would overlap are left out.
+    Dots,
+    /// As the outline of a pale area.
+    Area,
+}
+
+impl Figure {
+    /// The figure as SVG text.
+    pub fn to_svg(&self) -> String {
+        draw::draw(self)
+    }
+}
+
+/// Where a figure goes: the ending of the name says how.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum FigureFile {
+    /// Vector graphics.
+    Svg(PathBuf),
+    /// Pixels, two per unit of the SVG.
+    Png(PathBuf),
+}
+
+impl FigureFile {
+    /// From a file name that ends in .svg or .png.
+    pub fn parse(text: &str) -> Result<Self, String> {
+        let path = PathBuf::from(text);
+        let ending = path.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase());
+        match ending.as_deref() {
+            Some("svg") => Ok(Self::Svg(path)),
+            Some("png") => Ok(Self::Png(path)),
+            _ => Err("the name must end in .svg or .png".into()),
+        }
+    }
+
+    /// The file.
+    pub fn path(&self) -> &Path {
+        match self {
+            Self::Svg(path) | Self::Png(path) => path,
+        }
+    }
+
+    /// Writes the figure, whole or not at all.
+    pub fn write(&self, figure: &Figure) -> Result<(), PictureError> {
+        let svg = figure.to_svg();
+        match self {
+            Self::Svg(path) => file::write_atomically(path, svg.as_bytes()),
+            Self::Png(path) => {
+                let unencodable = |reason| PictureError::Unencodable { file: path.clone(), reason };
+                write_png(path, &png::rasterise(&svg).map_err(unencodable)?)
+            }
+        }
+    }
+}
