@@ -1,11 +1,13 @@
 //! Tables of radial data: what is read, what is refused and in which words, and what comes out.
 #![allow(clippy::unwrap_used, reason = "a test may fail by panicking")]
 
+use std::f64::consts::PI;
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use subsurface_codegen::{
-    Compiler, Loaded, check_paths, load_directory, load_memory, load_profile_file, load_radial_table,
+    Compilation, Compiler, Loaded, check_paths, load_directory, load_memory, load_profile_file,
+    load_radial_table,
 };
 use subsurface_profile::{Channel, Medium, Model, RadialData};
 
@@ -169,14 +171,55 @@ fn a_table_is_read_for_fits_as_it_is_for_materials() {
     assert_eq!(data[0].rows().len(), 5);
     assert_eq!(data[0].rows()[0].standard_error, Some(0.001));
     assert_eq!(data[0].rows()[4].standard_error, None);
-    // Without a surface albedo the integral stands for it.
+    // Without a surface albedo the integral stands for it, what the profile has before the first point included.
     let one = load_radial_table(Path::new("tests/in/pass/tabulated/tables/points.csv")).data.unwrap();
-    assert_eq!(one[0].surface_albedo(), one[0].energy());
+    let before_first = 2.0 * PI * (0.05 * 0.9) * 0.05;
+    // Roundings of seven areas.
+    assert!((one[0].surface_albedo() - one[0].energy() - before_first).abs() < 1e-15);
     assert!(check_paths(&[path.to_owned()]).report.is_empty());
     let bad = Path::new("tests/in/fail/table_not_sorted/profiles/measured.csv");
     assert!(load_radial_table(bad).data.is_none());
     assert!(check_paths(&[bad.to_owned()]).report.has_errors());
     assert!(load_radial_table(Path::new("tests/in/no_such_table.csv")).report.has_errors());
+}
+
+#[test]
+fn energy_before_the_first_point_counts() {
+    let warnings = |csv: &str| {
+        let loaded = load(csv);
+        assert!(loaded.set.is_some(), "{}", loaded.report);
+        loaded.report.iter().map(|diagnostic| diagnostic.message.clone()).collect::<Vec<_>>()
+    };
+    // r R is 0.08 up to r = 0.9 and falls to 0 at 1.1: 2π·0.08·0.9 = 0.452 before the first point and 0.050 after it.
+    let usual = "surface_albedo,r,r_reflectance\n0.5,0.9,0.08\n0.5,1.1,0\n";
+    assert_eq!(warnings(usual), [""; 0]);
+    // Of 0.4 that is 1.257 times as much, though the points alone hold an eighth.
+    let too_much = usual.replace("0.5,", "0.4,");
+    assert_eq!(warnings(&too_much), ["the table of surface albedo 0.4 integrates to 1.257 times that"]);
+    // Without a surface albedo it is more than all light, though the points alone hold an eighth.
+    let refused = load("r,r_reflectance\n0.9,0.2\n1.1,0\n").report.render(false);
+    assert!(refused.contains("the table integrates to 1.257, more than all light"), "{refused}");
+}
+
+#[test]
+fn a_single_table_is_the_shape_for_every_surface_albedo() {
+    let one = "surface_albedo,r,r_reflectance\n0.8,0,0.1\n0.8,2.5,0\n";
+    assert!(load(one).report.is_empty(), "{}", load(one).report);
+    // The material has 0.5: outside of two tables, unless one means the same with other digits, or it is black.
+    let outside = |least: &str, surface_albedo: &str| {
+        let csv = format!(
+            "{}{}",
+            one,
+            one.lines().skip(1).map(|row| row.replace("0.8,", least) + "\n").collect::<String>()
+        );
+        let ron = material("Tabulated(file: \"t.csv\")").replace("0.5, 0.5, 0.5", surface_albedo);
+        let loaded = load_memory([("m.ron", ron), ("t.csv", csv)]);
+        assert!(loaded.set.is_some(), "{}", loaded.report);
+        loaded.report.iter().any(|diagnostic| diagnostic.message.contains("outside of the table"))
+    };
+    assert!(outside("0.6,", "0.5, 0.7, 0.7") && outside("0.501,", "0.5, 0.7, 0.7"));
+    assert!(outside("0.6,", "0.7, 0.7, 0.801") && outside("0.6,", "0.7, 1e-6, 0.7"));
+    assert!(!outside("0.5005,", "0.5, 0.7, 0.8005") && !outside("0.6,", "0.7, 0, 0.7"));
 }
 
 #[test]
@@ -215,6 +258,30 @@ fn a_set_of_tables_compiles_to_the_blessed_texts() {
     assert_eq!(fs::read(dir.path().join("subsurface.tables")).unwrap(), compilation.profile_tables);
     let without = Compiler::new("tests/in/pass/one_model").compile().unwrap();
     assert!(without.profile_tables.is_empty() && !without.manifest.contains("profile_tables"));
+}
+
+#[test]
+fn a_kernel_has_the_profile_tables_that_its_wgsl_reads_or_is_none() {
+    use subsurface::runtime::{KernelError, SubsurfaceKernel};
+    let kernel = |compilation: &Compilation, profile_tables: &[u8]| {
+        SubsurfaceKernel::new(
+            compilation.wgsl.clone(),
+            compilation.material_table.clone(),
+            compilation.material_names(),
+            profile_tables.to_vec(),
+        )
+    };
+    let with = Compiler::new("tests/in/pass/tabulated").compile().unwrap();
+    let without = Compiler::new("tests/in/pass/one_model").compile().unwrap();
+    let tables = with.profile_tables.as_slice();
+    assert_eq!(kernel(&with, tables).unwrap().profile_tables(), tables);
+    assert!(kernel(&without, &[]).unwrap().profile_tables().is_empty());
+    let missing = kernel(&with, &[]).unwrap_err();
+    assert_eq!(missing, KernelError::ProfileTables { bytes: 0 });
+    assert!(missing.to_string().contains("reads profile tables, and 0 bytes"), "{missing}");
+    let foreign = kernel(&without, tables).unwrap_err();
+    assert_eq!(foreign, KernelError::ProfileTables { bytes: tables.len() });
+    assert!(foreign.to_string().contains("reads no profile tables"), "{foreign}");
 }
 
 #[test]

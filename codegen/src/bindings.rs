@@ -370,16 +370,16 @@ pub(crate) fn set_tokens(
     let rows = bindings.rows.iter().map(|value| literal(module, row, value));
     let row_name = Ident::new(&row.name, Span::call_site());
     let provenance = bindings.provenance;
-    let (tables, with_tables) = if bindings.has_tables {
+    let (tables, profile_tables) = if bindings.has_tables {
         let file = PROFILE_TABLES_FILE;
         let tables = quote! {
             /// The tables of tabulated profiles.
             #[allow(dead_code)]
             pub static PROFILE_TABLES: &[u8] = include_bytes!(#file);
         };
-        (tables, quote!(.with_profile_tables(PROFILE_TABLES)))
+        (tables, quote!(PROFILE_TABLES))
     } else {
-        Default::default()
+        (TokenStream::new(), quote!(&[]))
     };
     quote! {
         /// The materials of the set. `as u32` is the number that the G-buffer's surface target holds.
@@ -431,7 +431,8 @@ pub(crate) fn set_tokens(
                 WGSL,
                 #bytemuck::cast_slice(&MATERIALS),
                 &Material::NAMES,
-            )#with_tables
+                #profile_tables,
+            )
         }
     }
 }

@@ -236,7 +236,8 @@ fn number_of(knots: usize) -> u32 {
     u32::try_from(knots).expect("2048 models of 2^18 knots are fewer than 2^32")
 }
 
-/// How the shaders reach the knots: in a buffer, since a variable would be copied to every invocation.
+/// How the shaders reach the knots: in a buffer, since a variable would be copied to every invocation. By this
+/// declaration the runtime's `SubsurfaceKernel::new` sees that a kernel needs tables.
 const TABULATED_KNOTS: &str = "\
 /// The knots of all tables: table by table, by surface albedo, by radius.
 @group(0) @binding(1) var<storage, read> profile_tables: array<TabulatedKnot>;

@@ -157,7 +157,7 @@ fn data(
             return None;
         }
     };
-    let energy = data.energy();
+    let energy = energy(&data);
     let Some(surface_albedo) = surface_albedo else {
         // Roundings of many rows.
         if energy > 1.0 + 1e-6 {
@@ -171,6 +171,16 @@ fn data(
         decoder.report(error_text::unusual_energy(share, surface_albedo, &places[0].row));
     }
     Some(data)
+}
+
+/// The fraction of the entered energy that the profile of these data holds, what it adds before a first point at r > 0
+/// included.
+fn energy(data: &RadialData) -> f64 {
+    match TabulatedModel::new(std::slice::from_ref(data)) {
+        Ok(model) => model.energy_before_normalization(data.surface_albedo()) * data.surface_albedo(),
+        // Reported where the profile is made, which a fit does not need.
+        Err(_) => data.energy(),
+    }
 }
 
 /// One row: its surface albedo, its values, its place.

@@ -17,11 +17,7 @@ pub struct Deviation {
     pub mean_relative_error: f64,
     /// Errors of r·R over r uniform in [0, `end_radius`].
     pub whole: SquaredError,
-    /// Errors of r·R over the first half of that range.
-    pub first_half: SquaredError,
-    /// Errors of r·R over the second half.
-    pub second_half: SquaredError,
-    /// The radius to which the four errors above reach, in mean free paths.
+    /// The radius to which the two errors above reach, in mean free paths.
     pub end_radius: f64,
     /// The share of the data's energy that lies beyond the profile's own end; 0 for a profile without one.
     pub data_outside: f64,
@@ -49,7 +45,6 @@ impl Deviation {
 
     /// The deviation up to `end_radius`, in mean free paths.
     pub fn within(profile: &dyn RadialProfile, data: &RadialData, end_radius: f64) -> Deviation {
-        let half = 0.5 * end_radius;
         let beyond = |bin: &RadialRow, end: f64| {
             let width = (bin.r_hi - bin.r_lo.max(end)).max(0.0);
             2.0 * PI * bin.r_reflectance * width
@@ -62,8 +57,6 @@ impl Deviation {
             l1: l1(profile, data),
             mean_relative_error: mean_relative_error(profile, data, [0.0, end_radius]),
             whole: SquaredError::of(profile, data, [0.0, end_radius]),
-            first_half: SquaredError::of(profile, data, [0.0, half]),
-            second_half: SquaredError::of(profile, data, [half, end_radius]),
             end_radius,
             data_outside,
             profile_outside: profile.radial_tail(data.end_radius()),
@@ -177,9 +170,8 @@ mod tests {
         let deviation = Deviation::of(&*burley, &table_of(&*burley));
         // Roundings of 400 differences.
         assert!(deviation.l1 < 1e-13 && deviation.mean_relative_error < 1e-12, "{deviation:?}");
-        for error in [deviation.whole, deviation.first_half, deviation.second_half] {
-            assert!(error.mean < 1e-28 && error.r_squared > 1.0 - 1e-15, "{deviation:?}");
-        }
+        let SquaredError { mean, r_squared } = deviation.whole;
+        assert!(mean < 1e-28 && r_squared > 1.0 - 1e-15, "{deviation:?}");
         assert_eq!(deviation.data_outside, 0.0);
         assert!((deviation.profile_outside - burley.radial_tail(20.0)).abs() < 1e-15);
     }
@@ -209,6 +201,17 @@ mod tests {
         // One bin of 0.05 is split at the end, as if its density were constant.
         assert!((deviation.data_outside - expected).abs() < 1e-4, "{deviation:?}, not {expected}");
         assert_eq!(deviation.profile_outside, 0.0);
+    }
+
+    #[test]
+    fn the_error_of_a_range_is_the_mean_of_its_halves() {
+        let (burley, truth) =
+            (profile("burley_searchlight", 0.5), profile("exponential_dipole_searchlight", 0.5));
+        let table = table_of(&*truth);
+        let mean = |range| SquaredError::of(&*burley, &table, range).mean;
+        let (near, far, whole) = (mean([0.0, 3.0]), mean([3.0, 6.0]), mean([0.0, 6.0]));
+        // Roundings of 120 squares.
+        assert!(near > far && (0.5 * (near + far) - whole).abs() < 1e-13 * whole, "{near} {far} {whole}");
     }
 
     #[test]

@@ -5,7 +5,7 @@ use std::borrow::Cow;
 /// A kernel module and the parameter table of its materials.
 ///
 /// Generated Rust makes one with [`from_generated`](Self::from_generated); whoever compiles materials at run time makes
-/// one with [`new`](Self::new) from the compiler's output, and [`with_profile_tables`](Self::with_profile_tables).
+/// one with [`new`](Self::new) from the compiler's output.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SubsurfaceKernel {
     wgsl: Cow<'static, str>,
@@ -13,6 +13,9 @@ pub struct SubsurfaceKernel {
     material_names: Vec<Cow<'static, str>>,
     profile_tables: Cow<'static, [u8]>,
 }
+
+/// How the compiler's WGSL declares the buffer of the profile tables. Comments of ours do not spell it.
+const PROFILE_TABLES: &str = "@group(0) @binding(1) var<storage, read> profile_tables:";
 
 /// Parts that do not make a kernel.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -31,17 +34,29 @@ pub enum KernelError {
         /// Number of names.
         materials: usize,
     },
+    /// No profile tables for WGSL that reads some, or some for WGSL that reads none.
+    #[error(
+        "the WGSL reads {}profile tables, and {bytes} bytes of them are given: give WGSL and profile tables of one compilation",
+        if *bytes == 0 { "" } else { "no " }
+    )]
+    ProfileTables {
+        /// Bytes of the profile tables: 0 where the WGSL reads some.
+        bytes: usize,
+    },
 }
 
 impl SubsurfaceKernel {
-    /// A kernel from a compiler's output: the WGSL, the bytes of the parameter table and the material names by number.
+    /// A kernel from a compiler's output: the WGSL, the bytes of the parameter table, the material names by number, and
+    /// the bytes of the tables of tabulated profiles, which are empty where no material has one.
     ///
     /// # Errors
-    /// No material, or a table that does not hold one row for each.
+    /// No material, a table that does not hold one row for each, no profile tables for WGSL that reads some, or some
+    /// for WGSL that reads none.
     pub fn new(
         wgsl: String,
         material_table: Vec<u8>,
         material_names: Vec<String>,
+        profile_tables: Vec<u8>,
     ) -> Result<Self, KernelError> {
         let (bytes, materials) = (material_table.len(), material_names.len());
         if materials == 0 {
@@ -51,36 +66,31 @@ impl SubsurfaceKernel {
         if bytes == 0 || bytes % (16 * materials) != 0 {
             return Err(KernelError::Table { bytes, materials });
         }
+        if wgsl.contains(PROFILE_TABLES) == profile_tables.is_empty() {
+            return Err(KernelError::ProfileTables { bytes: profile_tables.len() });
+        }
         let material_names = material_names.into_iter().map(Cow::Owned).collect();
         Ok(Self {
             wgsl: Cow::Owned(wgsl),
             material_table: Cow::Owned(material_table),
             material_names,
-            profile_tables: Cow::Borrowed(&[]),
+            profile_tables: Cow::Owned(profile_tables),
         })
     }
 
-    /// A kernel from generated Rust, whose parts fit by construction.
+    /// A kernel from generated Rust, whose parts fit by construction: those of [`new`](Self::new).
     pub fn from_generated(
         wgsl: &'static str,
         material_table: &'static [u8],
         material_names: &'static [&'static str],
+        profile_tables: &'static [u8],
     ) -> Self {
         Self {
             wgsl: Cow::Borrowed(wgsl),
             material_table: Cow::Borrowed(material_table),
             material_names: material_names.iter().map(|name| Cow::Borrowed(*name)).collect(),
-            profile_tables: Cow::Borrowed(&[]),
+            profile_tables: Cow::Borrowed(profile_tables),
         }
-    }
-
-    /// The kernel with the tables of its tabulated profiles: `profile_tables` of a compiler's output.
-    ///
-    /// A set that has such materials needs them, and its pipelines cannot be made without; for others they are empty.
-    #[must_use]
-    pub fn with_profile_tables(mut self, profile_tables: impl Into<Cow<'static, [u8]>>) -> Self {
-        self.profile_tables = profile_tables.into();
-        self
     }
 
     /// The module's text.

@@ -15,7 +15,7 @@ pub struct BuildArguments {
     /// Directory of materials: one .ron file each, profiles in DIR/profiles.
     #[arg(long, value_name = "DIR", default_value = material_set::DEFAULT_DIRECTORY)]
     pub materials: PathBuf,
-    /// Directory for the three files; created if missing. A file that would not change is left alone.
+    /// Directory for the files; created if missing. A file that would not change is left alone.
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
 }
@@ -24,7 +24,8 @@ pub struct BuildArguments {
 pub fn run(arguments: &BuildArguments) -> Result<(), Failure> {
     let compilation = material_set::compile(&arguments.materials)?;
     compilation.write_to(&arguments.out).map_err(|error| Failure::reported(error.to_string()))?;
-    for extension in ["wgsl", "rs", "json"] {
+    let tables = (!compilation.profile_tables.is_empty()).then_some("tables");
+    for extension in ["wgsl", "rs", "json"].into_iter().chain(tables) {
         say!("{}", arguments.out.join("subsurface").with_extension(extension).display());
     }
     Ok(())

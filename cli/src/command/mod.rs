@@ -54,8 +54,8 @@ pub enum Command {
     /// Compile a set of materials to WGSL, Rust bindings and a JSON manifest.
     ///
     /// Writes subsurface.wgsl (the kernel module: all materials of the set), subsurface.rs (typed bindings that include
-    /// it) and subsurface.json (what the module binds, entry points, the parameter table). The same materials give the
-    /// same bytes. For Rust projects, `subsurface_codegen::Compiler` in build.rs does the same at every build.
+    /// it) and subsurface.json (what the module binds, entry points, the parameter table); if a profile is a table, also
+    /// subsurface.tables (its radii for the kernel). The same materials give the same bytes. For Rust projects, `subsurface_codegen::Compiler` in build.rs does the same at every build.
     Build(build::BuildArguments),
     /// Evaluate, judge, fit and draw radial diffusion profiles, in double precision.
     Profile(profile::ProfileArguments),

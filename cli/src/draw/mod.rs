@@ -23,8 +23,7 @@ pub const LARGEST_TAPS: u32 = 4096;
 /// The kernel of compiled materials.
 fn kernel(materials: &Compilation) -> Result<SubsurfaceKernel, Failure> {
     let (wgsl, table) = (materials.wgsl.clone(), materials.material_table.clone());
-    SubsurfaceKernel::new(wgsl, table, materials.material_names())
-        .map(|kernel| kernel.with_profile_tables(materials.profile_tables.clone()))
+    SubsurfaceKernel::new(wgsl, table, materials.material_names(), materials.profile_tables.clone())
         .map_err(|error| Failure::new(error.to_string(), "please report this as a defect of the compiler"))
 }
 

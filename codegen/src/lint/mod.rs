@@ -4,6 +4,7 @@ mod gaussian_weights;
 mod length;
 mod specular;
 mod surface_albedo;
+mod table_range;
 mod transmission;
 
 use crate::diagnostics::Diagnostic;
@@ -15,6 +16,7 @@ pub(crate) use length::diffuse_per_mean_free_path;
 pub(crate) fn check(material: &Draft<'_>, diagnostics: &mut Vec<Diagnostic>) {
     length::check(material, diagnostics);
     surface_albedo::check(material, diagnostics);
+    table_range::check(material, diagnostics);
     gaussian_weights::check(material, diagnostics);
     specular::check(material, diagnostics);
     transmission::check(material, diagnostics);

@@ -129,9 +129,9 @@ pub fn model(stem: &str) -> Model {
 /// The kernel of a compilation.
 pub fn kernel(compilation: &Compilation) -> SubsurfaceKernel {
     let (wgsl, table) = (compilation.wgsl.clone(), compilation.material_table.clone());
-    SubsurfaceKernel::new(wgsl, table, compilation.material_names())
+    let profile_tables = compilation.profile_tables.clone();
+    SubsurfaceKernel::new(wgsl, table, compilation.material_names(), profile_tables)
         .expect("a compilation makes a kernel")
-        .with_profile_tables(compilation.profile_tables.clone())
 }
 
 /// One value per pixel, rows from the top.
