@@ -2,6 +2,8 @@
 
 use std::f64::consts::PI;
 
+use crate::ModelError;
+
 /// A point source below the surface of an absorbing, scattering half-space, at mean free path 1.
 ///
 /// In the classical dipole (\[J01\] eq. 4) the light that a source at depth z sends through the surface
@@ -18,6 +20,17 @@ pub(crate) struct DipoleSource {
 impl DipoleSource {
     /// Halley's method takes at most five steps to all digits, over all depths, attenuations and fractions.
     const MAXIMUM_STEPS: usize = 8;
+
+    /// The source that a model has at a surface albedo, which the errors name.
+    pub(crate) fn new(surface_albedo: f64, depth: f64, attenuation: f64) -> Result<DipoleSource, ModelError> {
+        if !(depth > 0.0 && depth.is_finite()) {
+            return Err(ModelError::DipoleDepthNotPositive { surface_albedo, depth });
+        }
+        if !(attenuation >= 0.0 && attenuation.is_finite()) {
+            return Err(ModelError::NegativeDipoleAttenuation { surface_albedo, attenuation });
+        }
+        Ok(DipoleSource { depth, attenuation })
+    }
 
     /// t = ρ/z - 1 = (√(n² + 1) - 1), n = r/z, without the cancellation and without overflow.
     fn excess(&self, r: f64) -> f64 {

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use crate::dipole_source::DipoleSource;
 use crate::inverse::increasing_root;
-use crate::model_error::require_finite;
+use crate::model_error::{require_exponential, require_finite};
 use crate::radial_profile::{legal_radius, legal_u};
 use crate::{Length, Medium, ModelError, RadialProfile};
 
@@ -59,24 +59,14 @@ impl ExponentialDipoleModel {
         let depth = quadratic(self.dipole_depth);
         // The sum turns a -0.0 from A = 1 into 0.0.
         let attenuation = (1.0 - surface_albedo) * quadratic(self.dipole_attenuation) + 0.0;
-        if !(0.0..=1.0).contains(&weight) {
-            return Err(ModelError::ExponentialWeightOutOfRange { surface_albedo, weight });
-        }
-        if !(length > 0.0 && length.is_finite()) {
-            return Err(ModelError::ExponentialLengthNotPositive { surface_albedo, length });
-        }
-        if !(depth > 0.0 && depth.is_finite()) {
-            return Err(ModelError::DipoleDepthNotPositive { surface_albedo, depth });
-        }
-        if !(attenuation >= 0.0 && attenuation.is_finite()) {
-            return Err(ModelError::NegativeDipoleAttenuation { surface_albedo, attenuation });
-        }
+        require_exponential(surface_albedo, weight, length)?;
+        let dipole = DipoleSource::new(surface_albedo, depth, attenuation)?;
         Ok(ExponentialDipoleProfile {
             surface_albedo,
             mean_free_path_mm: medium.length_mm(),
             weight,
             length,
-            dipole: DipoleSource { depth, attenuation },
+            dipole,
         })
     }
 

@@ -159,3 +159,14 @@ pub(crate) fn require_finite<'a>(
             .map(|(path, _)| ModelError::NotFinite { coefficient: path.to_owned() }),
     );
 }
+
+/// An exponential's share of the energy is in [0, 1], and its decay length is positive.
+pub(crate) fn require_exponential(surface_albedo: f64, weight: f64, length: f64) -> Result<(), ModelError> {
+    if !(0.0..=1.0).contains(&weight) {
+        return Err(ModelError::ExponentialWeightOutOfRange { surface_albedo, weight });
+    }
+    if !(length > 0.0 && length.is_finite()) {
+        return Err(ModelError::ExponentialLengthNotPositive { surface_albedo, length });
+    }
+    Ok(())
+}

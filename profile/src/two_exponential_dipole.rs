@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use crate::dipole_source::DipoleSource;
 use crate::inverse::increasing_root;
-use crate::model_error::require_finite;
+use crate::model_error::{require_exponential, require_finite};
 use crate::radial_profile::{legal_radius, legal_u};
 use crate::{Length, Medium, ModelError, RadialProfile};
 
@@ -69,18 +69,8 @@ impl TwoExponentialDipoleModel {
         let depth = cubic(self.dipole_depth);
         // The sum turns a -0.0 from A = 1 into 0.0.
         let attenuation = (1.0 - surface_albedo) * cubic(self.dipole_attenuation) + 0.0;
-        if !(0.0..=1.0).contains(&weight) {
-            return Err(ModelError::ExponentialWeightOutOfRange { surface_albedo, weight });
-        }
-        if !(length > 0.0 && length.is_finite()) {
-            return Err(ModelError::ExponentialLengthNotPositive { surface_albedo, length });
-        }
-        if !(depth > 0.0 && depth.is_finite()) {
-            return Err(ModelError::DipoleDepthNotPositive { surface_albedo, depth });
-        }
-        if !(attenuation >= 0.0 && attenuation.is_finite()) {
-            return Err(ModelError::NegativeDipoleAttenuation { surface_albedo, attenuation });
-        }
+        require_exponential(surface_albedo, weight, length)?;
+        let dipole = DipoleSource::new(surface_albedo, depth, attenuation)?;
         let mut errors = Vec::new();
         self.collect_constant_errors(&mut errors);
         if let Some(error) = errors.into_iter().next() {
@@ -100,7 +90,7 @@ impl TwoExponentialDipoleModel {
                 Exponential { weight: weight * self.short_weight, length: short_length },
             ],
             sources: [
-                ((1.0 - weight) * (1.0 - self.second_weight), DipoleSource { depth, attenuation }),
+                ((1.0 - weight) * (1.0 - self.second_weight), dipole),
                 ((1.0 - weight) * self.second_weight, DipoleSource { depth: second_depth, attenuation }),
             ],
         })
