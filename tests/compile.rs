@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use subsurface_codegen::Compiler;
+use subsurface_codegen::{Compiler, Kernel, OutputFormat, Rejected, Rejection};
 
 /// Compares `text` with the blessed file; `cargo xtask bless` accepts a change.
 fn assert_blessed(folder: &str, name: &str, text: &str) {
@@ -60,4 +60,130 @@ fn the_generated_table_is_the_one_that_is_uploaded() {
         assert_eq!(material.number() as usize, number);
         assert_eq!(Material::from_name(material.name()), Some(material));
     }
+}
+
+#[test]
+fn the_caller_overrides_the_file_of_the_set() {
+    let directory = "tests/in/pass/described_set";
+    let compile = |compiler: Compiler| compiler.compile().unwrap_or_else(|report| panic!("{report}"));
+    let own = compile(Compiler::new(directory));
+    assert_eq!(own.kernel, Kernel::ImportanceSampled { taps: 33 });
+    let rejection = Rejection {
+        by_material: true,
+        by_distance: false,
+        by_normal: false,
+        rejected: Rejected::ReturnedToCentre,
+    };
+    assert_eq!((own.rejection, own.set.rejection), (rejection, rejection));
+    for line in [
+        "// Kernel: ImportanceSampled, 33 taps\n",
+        "// Rejects: by material; rejected energy is returned to the centre\n",
+        "const REJECT_BY_MATERIAL: bool = true;",
+        "const REJECT_BY_DISTANCE: bool = false;",
+        "const RETURN_TO_CENTRE: bool = true;",
+        "texture_storage_2d<rgba16float, write>",
+    ] {
+        assert!(own.wgsl.contains(line), "{line}");
+    }
+    assert!(own.rust.contains("KernelKind::ImportanceSampled") && own.rust.contains("taps: 33"));
+
+    let default = Rejection::default();
+    let other = Compiler::new(directory).kernel(Kernel::default()).rejection(default);
+    let other = compile(other.output_format(OutputFormat::Rgba32Float));
+    assert_eq!((other.kernel, other.rejection), (Kernel::default(), default));
+    // What the set's own file says stays on record.
+    assert_eq!(other.set.kernel, own.kernel);
+    assert!(other.wgsl.contains("// Kernel: Interleaved, 4 taps\n"));
+    assert!(other.wgsl.contains("texture_storage_2d<rgba32float, write>"));
+    assert!(other.rust.contains("KernelKind::Interleaved"));
+    assert_ne!(other.provenance, own.provenance);
+}
+
+#[test]
+fn a_set_that_asks_for_an_error_states_it() {
+    let compile = |compiler: Compiler| compiler.compile().unwrap_or_else(|report| panic!("{report}"));
+    let directory = "tests/in/pass/described_by_its_error";
+    let compilation = compile(Compiler::new(directory));
+    let report = compilation.quality.as_ref().expect("the set asks for an error");
+    assert!(report.error > 0.0 && report.error <= 0.03, "{report:?}");
+    assert_eq!(compilation.kernel, report.kernel);
+    let (error, taps) = (report.error, report.kernel.taps());
+    let head = format!("// Kernel: {}\n// Error: {error} of the white level", report.kernel);
+    assert!(compilation.wgsl.contains(&head), "{head}");
+    assert!(compilation.rust.contains(&format!("pub const KERNEL_ERROR: f64 = {error};")));
+    assert!(compilation.rust.contains("pub enum Quality"));
+    assert!(compilation.rust.contains(&format!("taps: {taps},")));
+    assert!(compilation.manifest.contains(&format!("\"error\": {error}")));
+    for tier in report.tiers {
+        let stated = format!("{} {} ({})", tier.tier.name(), tier.taps, tier.error);
+        assert!(compilation.wgsl.contains(&stated), "{stated}");
+    }
+    // Again, and the same bytes.
+    let again = compile(Compiler::new(directory));
+    assert_eq!((again.wgsl, again.rust), (compilation.wgsl, compilation.rust));
+    assert_eq!(again.manifest, compilation.manifest);
+
+    // A kernel that the caller names is not searched, and a set that asks for none says nothing of errors.
+    let named = compile(Compiler::new(directory).kernel(Kernel::Dense));
+    let without = compile(Compiler::new("tests/in/pass/described_set"));
+    for compilation in [named, without] {
+        assert_eq!(compilation.quality, None);
+        assert!(!compilation.wgsl.contains("// Error:"));
+        assert!(!compilation.rust.contains("KERNEL_ERROR") && !compilation.rust.contains("enum Quality"));
+        assert!(!compilation.manifest.contains("quality"));
+    }
+}
+
+#[test]
+fn every_choice_of_the_caller_shows_in_the_provenance() {
+    let skin = include_str!("in/pass/one_model/skin.ron");
+    let compiler = || Compiler::from_memory([("skin.ron", skin)]);
+    let rejection = Rejection::default();
+    let compilers = [
+        compiler(),
+        compiler().kernel(Kernel::Interleaved { taps: 5 }),
+        compiler().kernel(Kernel::ImportanceSampled { taps: 4 }),
+        compiler().rejection(Rejection { by_normal: true, ..rejection }),
+        compiler().rejection(Rejection { rejected: Rejected::ReturnedToCentre, ..rejection }),
+        compiler().output_format(OutputFormat::Rgba32Float),
+        compiler().without_gbuffer(),
+    ];
+    let provenance = |compiler: Compiler| match compiler.compile() {
+        Ok(compilation) => compilation.provenance,
+        Err(report) => panic!("{report}"),
+    };
+    let different: std::collections::BTreeSet<String> = compilers.map(provenance).into();
+    assert_eq!(different.len(), 7);
+}
+
+#[test]
+fn a_kernel_with_taps_that_it_cannot_have_is_refused() {
+    let skin = include_str!("in/pass/one_model/skin.ron");
+    for (kernel, message) in [
+        (
+            Kernel::Separable { taps: 16, rotated: false },
+            "error: the kernel `Separable` cannot have 16 taps\n = help: give `Compiler::kernel` an odd number from 3 to 65\n",
+        ),
+        (
+            Kernel::Interleaved { taps: 0 },
+            "error: the kernel `Interleaved` cannot have 0 taps\n = help: give `Compiler::kernel` a whole number from 1 to 64\n",
+        ),
+    ] {
+        let compiler = Compiler::from_memory([("skin.ron", skin)]).kernel(kernel);
+        let report = compiler.compile().expect_err("no such kernel");
+        assert_eq!(report.render(false), message);
+    }
+}
+
+#[test]
+fn the_curves_are_written_beside_the_rest() {
+    let directory = tempfile::tempdir().expect("there is room");
+    let compilation = Compiler::new("materials").compile().unwrap_or_else(|report| panic!("{report}"));
+    compilation.write_to(directory.path()).expect("the folder can be written to");
+    let curves = std::fs::read(directory.path().join("subsurface.curves")).expect("the file is there");
+    assert_eq!(curves, compilation.profile_curves);
+    let [width, height] = compilation.curve_size.map(|extent| extent as usize);
+    assert_eq!(curves.len(), 16 * width * height);
+    use subsurface::presets::{CURVE_SIZE, PROFILE_CURVES};
+    assert_eq!((CURVE_SIZE, PROFILE_CURVES), (compilation.curve_size, curves.as_slice()));
 }

@@ -144,8 +144,18 @@ fn a_crate_outside_the_workspace_swaps_its_model_by_one_word() {
     let added = succeeded(cargo(&package, &["build", "--verbose"]));
     assert_eq!(ran(&added), ["script consumer", "rustc consumer"], "{}", text(&added.stderr));
 
-    // A material that does not exist is a compile error.
+    // A set that asks for an error states it, and other tiers beside it.
+    write(&package.join("materials/set.ron"), "MaterialSet(quality: Medium)\n");
     let program = package.join("src/main.rs");
+    let stated = "fn main() -> Result<(), Box<dyn std::error::Error>> {\n    \
+                  const { assert!(materials::KERNEL_ERROR <= 0.02) };\n    \
+                  const { assert!(materials::Quality::Low.taps() <= materials::Quality::High.taps()) };\n    \
+                  assert!(materials::Quality::ALL.iter().all(|tier| tier.error() > 0.0));\n";
+    write(&program, &read(&program).replace(stated.lines().next().expect("the first line"), stated));
+    assert!(read(&program).contains("KERNEL_ERROR"));
+    printed(&succeeded(cargo(&package, &["run", "--quiet"])));
+
+    // A material that does not exist is a compile error.
     write(&program, &read(&program).replace("Material::Marble", "Material::Granite"));
     let refused = cargo(&package, &["build"]);
     let message = text(&refused.stderr);

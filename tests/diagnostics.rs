@@ -1,4 +1,4 @@
-//! Material directories in, blessed diagnostics out: `tests/in/{fail,warn,pass}/CASE` and `tests/out/errors/CASE.snap`.
+//! Material directories in, blessed diagnostics out: `tests/in/{fail,warn,pass,out_of_reach}/CASE` and `tests/out/errors/CASE.snap`.
 //!
 //! A case is a small materials directory. What cannot or should not lie in a repository (10 MB, bytes that are no text)
 //! is written by the test. After a change: `cargo insta review`, or `INSTA_UPDATE=always cargo test --test diagnostics`,
@@ -8,7 +8,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use subsurface_codegen::{Loaded, check_paths, load_directory, load_profile, load_profile_file};
+use subsurface_codegen::{Compiler, Loaded, check_paths, load_directory, load_profile, load_profile_file};
 
 /// Compares `text` with the blessed `tests/out/errors/CASE.snap`.
 fn assert_blessed(case: &str, text: &str) {
@@ -72,6 +72,17 @@ fn accepted_sets_say_nothing() {
         let loaded = load_directory(&dir);
         assert!(loaded.report.is_empty(), "{case}:\n{}", loaded.report);
         assert!(loaded.set.is_some(), "{case}");
+    }
+}
+
+#[test]
+fn sets_that_ask_for_too_much_keep_their_exact_message() {
+    for (case, dir) in cases("out_of_reach") {
+        // All is well with the files; the error is in what they amount to.
+        assert!(load_directory(&dir).report.is_empty(), "{case}");
+        let report = Compiler::new(&dir).compile().unwrap_err();
+        assert!(report.errors().all(|error| error.primary.is_some() && !error.help.is_empty()), "{report}");
+        assert_blessed(&format!("out_of_reach_of_{case}"), &report.render(false));
     }
 }
 
@@ -273,6 +284,14 @@ fn one_file_is_checked_with_what_it_uses_and_without_what_it_does_not() {
         .map(|(span, _)| report.sources().path(span.file))
         .collect();
     assert!(files.iter().all(|file| file.ends_with("profiles/mine.ron")), "{files:?}");
+
+    // The file of a set is checked as one, with what is wrong elsewhere left out.
+    assert!(check("tests/in/pass/described_set/set.ron").is_empty());
+    let report = check("tests/in/fail/set_of_unknown_words/set.ron");
+    assert_eq!(report.errors().count(), 5, "{report}");
+    let report = check("tests/in/fail/two_sets/set.ron");
+    let messages: Vec<&str> = report.errors().map(|error| error.message.as_str()).collect();
+    assert_eq!(messages, ["two files describe this set", "`Interleaved` with 0 taps"]);
 
     assert!(check("tests/in/fail/import_cycle_of_profiles/profiles/a.ron").has_errors());
     assert!(check("tests/in/no_such_file.ron").has_errors());

@@ -262,14 +262,18 @@ fn a_set_of_tables_compiles_to_the_blessed_texts() {
 
 #[test]
 fn a_kernel_has_the_profile_tables_that_its_wgsl_reads_or_is_none() {
-    use subsurface::runtime::{KernelError, SubsurfaceKernel};
+    use subsurface::runtime::{KernelError, KernelKind, KernelParts, SubsurfaceKernel};
     let kernel = |compilation: &Compilation, profile_tables: &[u8]| {
-        SubsurfaceKernel::new(
-            compilation.wgsl.clone(),
-            compilation.material_table.clone(),
-            compilation.material_names(),
-            profile_tables.to_vec(),
-        )
+        SubsurfaceKernel::new(KernelParts {
+            wgsl: compilation.wgsl.clone(),
+            material_table: compilation.material_table.clone(),
+            material_names: compilation.material_names(),
+            profile_tables: profile_tables.to_vec(),
+            profile_curves: compilation.profile_curves.clone(),
+            curve_size: compilation.curve_size,
+            kind: KernelKind::Interleaved,
+            taps: compilation.kernel.taps(),
+        })
     };
     let with = Compiler::new("tests/in/pass/tabulated").compile().unwrap();
     let without = Compiler::new("tests/in/pass/one_model").compile().unwrap();

@@ -10,9 +10,12 @@
 pub mod command;
 pub mod draw;
 pub mod failure;
+pub mod kernel_bench;
+pub mod kernel_name;
 pub mod picture;
 pub mod plot;
 pub mod progress;
 pub mod scene;
+mod suggestion;
 pub mod table;
 pub mod terminal;

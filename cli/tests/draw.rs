@@ -388,6 +388,10 @@ fn sheet(_: u32, _: u32) -> f32 {
     SHEET_MM
 }
 
+/// Relative error of irradiance that kernels pack: the shared exponent leaves 9 bits, half of a step is 1/512 at worst,
+/// and kernels of two stages pack twice.
+const PACKING: f32 = 2.0 / 512.0;
+
 #[test]
 fn constant_irradiance_stays_constant() {
     let folder = tempfile::tempdir().unwrap();
@@ -396,7 +400,7 @@ fn constant_irradiance_stays_constant() {
     buffers(&input, |_, _| 0.7, |x, y| SHEET_MM + 0.2 * x as f32 + 0.1 * y as f32, &[]);
     for scale in [["--mm-per-pixel", "0.2"], ["--fov-y-degrees", "24"]] {
         for value in diffuse(&input, &scale).channels.iter().flatten() {
-            assert!((value / 0.7 - 1.0).abs() < 1e-3, "{scale:?}: {value}");
+            assert!((value / 0.7 - 1.0).abs() < PACKING, "{scale:?}: {value}");
         }
     }
 }
@@ -456,14 +460,15 @@ fn a_step_edge_softens_alike_on_both_sides() {
 }
 
 #[test]
-fn a_seed_changes_the_noise_and_nothing_else() {
+fn another_frame_of_a_sequence_changes_the_noise_and_nothing_else() {
     let folder = tempfile::tempdir().unwrap();
     let input = folder.path().join("in.exr");
     buffers(&input, step, sheet, &[]);
-    let with = |seed| diffuse(&input, &["--mm-per-pixel", "0.25", "--taps", "16", "--seed", seed]);
+    let arguments = ["--mm-per-pixel", "0.25", "--kernel", "importance-sampled:16", "--frame-index"];
+    let with = |index| diffuse(&input, &[&arguments[..], &[index]].concat());
     let (zero, again, seven) = (with("0"), with("0"), with("7"));
-    assert!(zero.bytes == again.bytes, "the same seed gave other bytes");
-    assert!(zero.channels != seven.channels, "another seed gave the same noise");
+    assert!(zero.bytes == again.bytes, "the same frame gave other bytes");
+    assert!(zero.channels != seven.channels, "another frame gave the same noise");
     let worst =
         zero.columns(0).into_iter().zip(seven.columns(0)).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
     println!("columns differ by {worst:.5}");
@@ -503,6 +508,8 @@ fn albedo_and_material_may_come_with_the_buffers() {
         .map(|entry| entry.unwrap().path())
         .filter(|path| path.extension().is_some_and(|extension| extension == "ron"))
         .map(|path| path.file_stem().unwrap().to_string_lossy().into_owned())
+        // Says how the set is diffused, and is no material.
+        .filter(|name| name != "set")
         .collect();
     names.sort();
     let number = |name: &str| names.iter().position(|known| known == name).unwrap() as f32;

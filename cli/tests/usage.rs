@@ -11,7 +11,7 @@ fn stderr(output: &Output) -> String {
     String::from_utf8(output.stderr.clone()).unwrap()
 }
 
-const COMMANDS: [&[&str]; 17] = [
+const COMMANDS: [&[&str]; 19] = [
     &["render"],
     &["check"],
     &["build"],
@@ -29,6 +29,8 @@ const COMMANDS: [&[&str]; 17] = [
     &["reference", "layers"],
     &["diffuse"],
     &["contact-sheet"],
+    &["bench"],
+    &["bench", "kernels"],
 ];
 
 #[test]
@@ -45,8 +47,9 @@ fn every_command_has_help_with_an_example_of_itself() {
 #[test]
 fn a_missing_argument_is_a_usage_error() {
     assert_eq!(subsurface(&[]).status.code(), Some(2));
-    // `profile compare` needs none: it compares all that there is.
-    for command in COMMANDS.into_iter().filter(|command| command.last() != Some(&"compare")) {
+    // `profile compare` and `bench kernels` need none: they compare all that there is.
+    let takes_all = |command: &&[&str]| ["compare", "kernels"].contains(&command[command.len() - 1]);
+    for command in COMMANDS.into_iter().filter(|command| !takes_all(command)) {
         assert_eq!(subsurface(command).status.code(), Some(2), "{command:?}");
     }
     assert_eq!(subsurface(&["no-such-command"]).status.code(), Some(2));
@@ -60,6 +63,20 @@ fn an_argument_out_of_range_is_a_usage_error_that_says_the_range() {
         (&["render", "--out", "a.png", "--size", "100000x1"], "32768"),
         (&["render", "--out", "a.jpg"], ".png or .exr"),
         (&["render", "--out", "a.png", "--taps", "0"], "1..=4096"),
+        (&["render", "--out", "a.png", "--kernel", "interleafed"], "did you mean `interleaved`?"),
+        (&["render", "--out", "a.png", "--kernel", "interleaved:65"], "interleaved has 1 to 64 taps, not 65"),
+        (&["render", "--out", "a.png", "--kernel", "separable:16"], "an odd number of taps from 3 to 65"),
+        (&["contact-sheet", "--out", "a.png", "--kernel", "dense:9"], "no number of taps"),
+        (&["render", "--out", "a.png", "--path", "ray"], "possible values: compute, fragment"),
+        (&["render", "--out", "a.png", "--debug", "noise"], "possible values: taps, filter-radius"),
+        (&["render", "--out", "a.png", "--debug", "taps", "--no-subsurface"], "cannot be used with"),
+        (&["bench", "kernels", "--input", "a.exr"], "--mm-per-pixel"),
+        (&["bench", "kernels", "--fov-y-degrees", "24"], "--input"),
+        (&["bench", "kernels", "--kernel", "dense"], "always runs"),
+        (&["bench", "kernels", "--footprints", "5,0"], "between 0.01 and 100 pixels"),
+        (&["bench", "kernels", "--repeats", "0"], "1..=1000"),
+        (&["bench", "kernels", "--white", "0"], "above 0"),
+        (&["bench", "kernels", "--plot", "a.jpg"], ".svg or .png"),
         (&["render", "--out", "a.png", "--light", "0,0,0"], "direction is zero"),
         (
             &[&["render", "--out", "a.png"], &["--light", "0,0,-1"].repeat(5)[..]].concat(),

@@ -1,16 +1,19 @@
 //! Rust bindings of a validated module: structs with layout asserts, bind groups, vertex layouts, entry points; and of
 //! a material set: its enum, its table and its kernel.
 
+mod bind_group;
+mod quality;
+mod set;
+
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{format_ident, quote};
 
-use crate::compiler::PROFILE_TABLES_FILE;
 use crate::docs::Docs;
-use crate::identifier::camel_case;
 use crate::layout::{Field, FieldType, Structure, structure};
-use crate::material::MaterialSet;
-use crate::reflect::{Bound, Reflection, Resource, Sample, Stage, VertexInput};
-use crate::value::Value;
+use crate::reflect::{Reflection, VertexInput};
+
+pub(crate) use quality::quality_tokens;
+pub(crate) use set::{SetBindings, set_tokens};
 
 /// Paths under which the generated code finds what it needs.
 #[derive(Clone, Debug)]
@@ -18,15 +21,6 @@ pub(crate) struct Paths {
     pub(crate) wgpu: TokenStream,
     pub(crate) bytemuck: TokenStream,
     pub(crate) runtime: TokenStream,
-}
-
-/// What the bindings of a material set are written from.
-pub(crate) struct SetBindings<'a> {
-    pub(crate) set: &'a MaterialSet,
-    pub(crate) rows: &'a [Value],
-    pub(crate) provenance: &'a str,
-    /// Whether the kernel reads tables of profiles.
-    pub(crate) has_tables: bool,
 }
 
 /// Docs of a generated item; `fallback` where the WGSL or RON has none, since generated code must not warn.
@@ -77,9 +71,8 @@ pub(crate) fn module_tokens(
             tokens.extend(structure_tokens(module, &structure, paths));
         }
     }
-    for (number, group) in reflection.groups.iter().filter(|(number, _)| groups(**number)) {
-        let bindings: Vec<_> = group.iter().map(|(binding, bound)| (*binding, bound)).collect();
-        tokens.extend(bind_group_tokens(*number, &bindings, paths));
+    for group in reflection.groups.iter().filter(|group| groups(group.number)) {
+        tokens.extend(bind_group::tokens(group, paths));
     }
     for input in &reflection.vertex_inputs {
         tokens.extend(vertex_tokens(input, paths));
@@ -89,6 +82,12 @@ pub(crate) fn module_tokens(
         let (text, fallback) = (&entry.name, format!("{:?} entry point `{}`.", entry.stage, entry.name));
         let docs = doc_attributes(&entry.docs, &fallback);
         tokens.extend(quote!(#docs #[allow(dead_code)] pub const #name: &str = #text;));
+        if let Some([x, y, z]) = entry.workgroup_size.map(|size| size.map(Literal::u32_unsuffixed)) {
+            let name = format_ident!("WORKGROUP_{}", entry.name.to_ascii_uppercase());
+            let doc = format!(" Invocations of a workgroup of `{text}`.");
+            tokens
+                .extend(quote!(#[doc = #doc] #[allow(dead_code)] pub const #name: [u32; 3] = [#x, #y, #z];));
+        }
     }
     tokens
 }
@@ -187,117 +186,6 @@ fn structure_tokens(module: &naga::Module, structure: &Structure, paths: &Paths)
     }
 }
 
-fn bind_group_tokens(number: u32, bindings: &[(u32, &Bound)], paths: &Paths) -> TokenStream {
-    let wgpu = &paths.wgpu;
-    let name = format_ident!("BindGroup{}", number);
-    let names: Vec<_> =
-        bindings.iter().map(|(_, bound)| Ident::new(&bound.name, Span::call_site())).collect();
-    let fields = bindings.iter().zip(&names).map(|((binding, bound), name)| {
-        let docs = doc_attributes(&bound.docs, &format!("`@group({number}) @binding({binding})`."));
-        let ty = match bound.resource {
-            Resource::Uniform { .. } | Resource::Storage { .. } => quote!(#wgpu::BufferBinding<'a>),
-            Resource::Texture { .. } => quote!(&'a #wgpu::TextureView),
-            Resource::Sampler { .. } => quote!(&'a #wgpu::Sampler),
-        };
-        quote!(#docs pub #name: #ty)
-    });
-    let layout_entries = bindings.iter().map(|(binding, bound)| layout_entry(*binding, bound, wgpu));
-    let entries = bindings.iter().zip(&names).map(|((binding, bound), name)| {
-        let binding = Literal::u32_unsuffixed(*binding);
-        let resource = match bound.resource {
-            Resource::Uniform { .. } | Resource::Storage { .. } => {
-                quote!(#wgpu::BindingResource::Buffer(self.#name.clone()))
-            }
-            Resource::Texture { .. } => quote!(#wgpu::BindingResource::TextureView(self.#name)),
-            Resource::Sampler { .. } => quote!(#wgpu::BindingResource::Sampler(self.#name)),
-        };
-        quote!(#wgpu::BindGroupEntry { binding: #binding, resource: #resource })
-    });
-    let count = Literal::usize_unsuffixed(bindings.len());
-    let index = Literal::u32_unsuffixed(number);
-    let list = bindings.iter().map(|(_, bound)| format!("`{}`", bound.name)).collect::<Vec<_>>().join(", ");
-    let struct_doc = format!(" Resources of bind group {number}: {list}.");
-    quote! {
-        #[doc = #struct_doc]
-        #[derive(Clone, Debug)]
-        #[allow(dead_code)]
-        pub struct #name<'a> { #(#fields),* }
-        #[allow(dead_code)]
-        impl #name<'_> {
-            /// Number of the group in the WGSL.
-            pub const INDEX: u32 = #index;
-            /// Entries of the layout, by binding.
-            pub const LAYOUT_ENTRIES: [#wgpu::BindGroupLayoutEntry; #count] = [#(#layout_entries),*];
-            /// The group's layout.
-            pub fn layout(device: &#wgpu::Device, label: &str) -> #wgpu::BindGroupLayout {
-                device.create_bind_group_layout(&#wgpu::BindGroupLayoutDescriptor {
-                    label: Some(label),
-                    entries: &Self::LAYOUT_ENTRIES,
-                })
-            }
-            /// The group itself.
-            pub fn create(
-                &self,
-                device: &#wgpu::Device,
-                layout: &#wgpu::BindGroupLayout,
-                label: &str,
-            ) -> #wgpu::BindGroup {
-                device.create_bind_group(&#wgpu::BindGroupDescriptor {
-                    label: Some(label),
-                    layout,
-                    entries: &[#(#entries),*],
-                })
-            }
-        }
-    }
-}
-
-fn layout_entry(binding: u32, bound: &Bound, wgpu: &TokenStream) -> TokenStream {
-    let binding = Literal::u32_unsuffixed(binding);
-    let stages = bound.stages.iter().map(|stage| match stage {
-        Stage::Vertex => quote!(#wgpu::ShaderStages::VERTEX),
-        Stage::Fragment => quote!(#wgpu::ShaderStages::FRAGMENT),
-        Stage::Compute => quote!(#wgpu::ShaderStages::COMPUTE),
-    });
-    let mut visibility = quote!(#wgpu::ShaderStages::empty());
-    for (index, stage) in stages.enumerate() {
-        visibility = if index == 0 { stage } else { quote!(#visibility.union(#stage)) };
-    }
-    let buffer = |ty: TokenStream, size: u32| {
-        let size = Literal::u64_unsuffixed(u64::from(size));
-        quote!(#wgpu::BindingType::Buffer {
-            ty: #ty,
-            has_dynamic_offset: false,
-            min_binding_size: #wgpu::BufferSize::new(#size),
-        })
-    };
-    let ty = match &bound.resource {
-        Resource::Uniform { size, .. } => buffer(quote!(#wgpu::BufferBindingType::Uniform), *size),
-        Resource::Storage { size, read_only, .. } => {
-            buffer(quote!(#wgpu::BufferBindingType::Storage { read_only: #read_only }), *size)
-        }
-        Resource::Texture { sample, dimension, multisampled } => {
-            let sample = match sample {
-                Sample::Float { filterable } => quote!(Float { filterable: #filterable }),
-                Sample::Sint => quote!(Sint),
-                Sample::Uint => quote!(Uint),
-                Sample::Depth => quote!(Depth),
-            };
-            let dimension = Ident::new(dimension, Span::call_site());
-            quote!(#wgpu::BindingType::Texture {
-                sample_type: #wgpu::TextureSampleType::#sample,
-                view_dimension: #wgpu::TextureViewDimension::#dimension,
-                multisampled: #multisampled,
-            })
-        }
-        Resource::Sampler { comparison } => {
-            let ty = if *comparison { quote!(Comparison) } else { quote!(Filtering) };
-            quote!(#wgpu::BindingType::Sampler(#wgpu::SamplerBindingType::#ty))
-        }
-    };
-    quote!(#wgpu::BindGroupLayoutEntry { binding: #binding, visibility: #visibility, ty: #ty, count: None })
-}
-
 fn vertex_tokens(input: &VertexInput, paths: &Paths) -> TokenStream {
     let (wgpu, bytemuck) = (&paths.wgpu, &paths.bytemuck);
     let crate_path = bytemuck.to_string().replace(' ', "");
@@ -346,139 +234,4 @@ fn vertex_tokens(input: &VertexInput, paths: &Paths) -> TokenStream {
             };
         }
     }
-}
-
-/// The enum of the materials, their table and their kernel.
-pub(crate) fn set_tokens(
-    module: &naga::Module,
-    bindings: &SetBindings<'_>,
-    row: &Structure,
-    paths: &Paths,
-) -> TokenStream {
-    let runtime = &paths.runtime;
-    let bytemuck = &paths.bytemuck;
-    let count = Literal::usize_unsuffixed(bindings.set.materials.len());
-    let names: Vec<_> = bindings.set.materials.iter().map(|material| material.name.as_str()).collect();
-    let variants: Vec<_> =
-        names.iter().map(|name| Ident::new(&camel_case(name), Span::call_site())).collect();
-    let declarations =
-        bindings.set.materials.iter().zip(&variants).enumerate().map(|(number, (material, variant))| {
-            let docs = doc_attributes(&material.docs, &format!("The material `{}`.", material.name));
-            let number = Literal::usize_unsuffixed(number);
-            quote!(#docs #variant = #number)
-        });
-    let rows = bindings.rows.iter().map(|value| literal(module, row, value));
-    let row_name = Ident::new(&row.name, Span::call_site());
-    let provenance = bindings.provenance;
-    let (tables, profile_tables) = if bindings.has_tables {
-        let file = PROFILE_TABLES_FILE;
-        let tables = quote! {
-            /// The tables of tabulated profiles.
-            #[allow(dead_code)]
-            pub static PROFILE_TABLES: &[u8] = include_bytes!(#file);
-        };
-        (tables, quote!(PROFILE_TABLES))
-    } else {
-        (TokenStream::new(), quote!(&[]))
-    };
-    quote! {
-        /// The materials of the set. `as u32` is the number that the G-buffer's surface target holds.
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-        #[repr(u32)]
-        #[allow(dead_code)]
-        pub enum Material { #(#declarations),* }
-        #[allow(dead_code)]
-        impl Material {
-            /// Every material, by number.
-            pub const ALL: [Self; #count] = [#(Self::#variants),*];
-            /// Names as in the material files, by number.
-            pub const NAMES: [&'static str; #count] = [#(#names),*];
-            /// The number in the parameter table.
-            pub const fn number(self) -> u32 {
-                self as u32
-            }
-            /// The name as in the material files.
-            pub const fn name(self) -> &'static str {
-                Self::NAMES[self as usize]
-            }
-            /// The row of the parameter table.
-            pub fn parameters(self) -> &'static #row_name {
-                &MATERIALS[self as usize]
-            }
-            /// What the surface target holds where this material is: its surface albedo and its number.
-            pub fn surface_texel(self) -> [f32; 4] {
-                let [red, green, blue] = self.parameters().surface.surface_albedo;
-                [red, green, blue, self.number() as f32]
-            }
-            /// The material of that name.
-            pub fn from_name(name: &str) -> Option<Self> {
-                Self::ALL.into_iter().find(|material| material.name() == name)
-            }
-        }
-        /// SHA-256 of what the kernel was generated from.
-        #[allow(dead_code)]
-        pub const PROVENANCE: &str = #provenance;
-        /// The parameter table, by material number.
-        pub static MATERIALS: [#row_name; #count] = [#(#rows),*];
-        #tables
-        /// The kernel module as WGSL.
-        #[allow(dead_code)]
-        pub const WGSL: &str = include_str!("subsurface.wgsl");
-        /// The kernel of this set, for the passes of the runtime.
-        #[allow(dead_code)]
-        pub fn kernel() -> #runtime::SubsurfaceKernel {
-            #runtime::SubsurfaceKernel::from_generated(
-                WGSL,
-                #bytemuck::cast_slice(&MATERIALS),
-                &Material::NAMES,
-                #profile_tables,
-            )
-        }
-    }
-}
-
-/// `value` as a Rust expression of the struct's type; fields that the value does not name are zero.
-fn literal(module: &naga::Module, structure: &Structure, value: &Value) -> TokenStream {
-    let name = Ident::new(&structure.name, Span::call_site());
-    let fields = slots(structure).into_iter().map(|slot| match slot {
-        Slot::Gap { offset, size } => {
-            let name = gap_name(offset);
-            let size = Literal::u32_unsuffixed(size);
-            quote!(#name: [0; #size])
-        }
-        Slot::Field(field) => {
-            let name = Ident::new(&field.name, Span::call_site());
-            let expression = match (&field.ty, value.field(&field.name)) {
-                (FieldType::Struct(handle), inner) => {
-                    let zero = Value::Struct(Vec::new());
-                    let inner_structure = self::structure(module, &Docs::default(), *handle);
-                    inner_structure.map(|s| literal(module, &s, inner.unwrap_or(&zero))).unwrap_or_default()
-                }
-                (_, Some(Value::F32(value))) => number(*value),
-                (_, Some(Value::U32(value))) => {
-                    let value = Literal::u32_unsuffixed(*value);
-                    quote!(#value)
-                }
-                (_, Some(Value::Vector(components))) => {
-                    let components = components.iter().map(|component| number(*component));
-                    quote!([#(#components),*])
-                }
-                (FieldType::F32, _) => quote!(0.0),
-                (FieldType::U32 | FieldType::I32, _) => quote!(0),
-                (FieldType::Vector { scalar: "f32", length }, _) => {
-                    let length = Literal::usize_unsuffixed(*length);
-                    quote!([0.0; #length])
-                }
-                _ => unreachable!("rows hold scalars and f32 vectors: {}", field.name),
-            };
-            quote!(#name: #expression)
-        }
-    });
-    quote!(#name { #(#fields),* })
-}
-
-/// A float literal; `proc_macro2` refuses negative ones, so the sign stands before it.
-fn number(value: f32) -> TokenStream {
-    let magnitude = Literal::f32_unsuffixed(value.abs());
-    if value.is_sign_negative() { quote!(-#magnitude) } else { quote!(#magnitude) }
 }

@@ -1,5 +1,8 @@
 //! The compiler: a directory of materials in; WGSL, Rust and a manifest out.
 
+mod compilation;
+mod kernel_module;
+mod parameter_table;
 mod runtime_bindings;
 
 use std::path::{Path, PathBuf};
@@ -7,19 +10,24 @@ use std::path::{Path, PathBuf};
 use proc_macro2::TokenStream;
 use quote::quote;
 use sha2::{Digest, Sha256};
-use subsurface_shaders::{KERNELS, LIBRARY, Module, PASSES, PROFILES};
+use subsurface_shaders::{KERNELS, LIBRARY, PASSES, PROFILES};
 
 use crate::bindings::{self, Paths, SetBindings};
-use crate::compose::{Linked, link};
 use crate::diagnostics::{Diagnostic, Report};
-use crate::emit::{Emitted, emit};
+use crate::emit::Choices;
+use crate::kernel::Kernel;
 use crate::layout::{array_bytes, bytes_of, structure};
 use crate::load::{Loaded, load_directory, load_memory};
+use crate::manifest::ManifestOf;
 use crate::material::MaterialSet;
-use crate::output::{self, BuildError};
-use crate::reflect::{Reflection, reflect};
-use crate::validate::{Validated, validate};
+use crate::output::BuildError;
+use crate::output_format::OutputFormat;
+use crate::quality::{QualityReport, solve};
+use crate::rejection::Rejection;
 
+pub use compilation::Compilation;
+pub(crate) use compilation::{PROFILE_CURVES_FILE, PROFILE_TABLES_FILE};
+use kernel_module::KernelModule;
 pub use runtime_bindings::runtime_bindings;
 
 /// Name of the struct that is one row of the parameter table.
@@ -31,9 +39,8 @@ const KNOT: &str = "TabulatedKnot";
 /// Knots that fit a set: 84 MB, within the 128 MiB that WebGPU grants a storage buffer; their numbers are exact as f32.
 const KNOT_LIMIT: usize = 1 << 22;
 
-/// Entry points of the kernel module, by the pass that uses them.
-const SUBSURFACE_ENTRIES: &[&str] = &["subsurface_vertex", "subsurface_fragment", "passthrough_fragment"];
-const GBUFFER_ENTRIES: &[&str] = &["gbuffer_vertex", "gbuffer_fragment"];
+/// Texels of the curves and terms of a set: 256 MB. The shaders keep the number of a texel as an f32, exact up to here.
+const CURVE_TEXEL_LIMIT: u32 = 1 << 24;
 
 /// Materials that fit a set: the surface target keeps the number as a 16-bit float, exact up to 2048.
 const MATERIAL_LIMIT: usize = 2048;
@@ -58,7 +65,7 @@ enum Source {
 /// let skin = "Material(profile: Burley(parametrization: Searchlight), \
 ///             mean_free_path_mm: (1.3, 0.95, 0.67), surface_albedo: (0.83, 0.64, 0.55))";
 /// let compilation = subsurface_codegen::Compiler::from_memory([("skin.ron", skin)]).compile().unwrap();
-/// assert!(compilation.wgsl.contains("fn burley_sample_radius"));
+/// assert!(compilation.wgsl.contains("fn burley_radial_cdf"));
 /// ```
 #[derive(Clone, Debug)]
 pub struct Compiler {
@@ -66,6 +73,9 @@ pub struct Compiler {
     runtime_path: String,
     gbuffer: bool,
     passes: Vec<Pass>,
+    kernel: Option<Kernel>,
+    rejection: Option<Rejection>,
+    output_format: OutputFormat,
 }
 
 /// A pass of the caller's own that is linked into the kernel module.
@@ -82,39 +92,6 @@ pub struct Pass {
     pub entry_points: &'static [&'static str],
 }
 
-/// What a set compiles to.
-#[derive(Clone, Debug)]
-#[non_exhaustive]
-pub struct Compilation {
-    /// The kernel module: validated WGSL.
-    pub wgsl: String,
-    /// Rust bindings; they include the WGSL from `subsurface.wgsl` beside them.
-    pub rust: String,
-    /// Reflection manifest: JSON.
-    pub manifest: String,
-    /// The materials, by number.
-    pub set: MaterialSet,
-    /// The parameter table, as the bytes of the storage buffer.
-    pub material_table: Vec<u8>,
-    /// The tables of tabulated profiles, as the bytes of the second storage buffer; empty where no material uses one.
-    pub profile_tables: Vec<u8>,
-    /// SHA-256 of the inputs, hexadecimal.
-    pub provenance: String,
-    /// Warnings.
-    pub report: Report,
-    /// Every file that was read, sorted.
-    pub files_read: Vec<PathBuf>,
-    /// Every directory that was listed, sorted.
-    pub directories_read: Vec<PathBuf>,
-}
-
-impl Compilation {
-    /// Names of the materials, by number.
-    pub fn material_names(&self) -> Vec<String> {
-        self.set.materials.iter().map(|material| material.name.clone()).collect()
-    }
-}
-
 impl Compiler {
     /// A compiler of the materials in `directory`.
     pub fn new(directory: impl Into<PathBuf>) -> Self {
@@ -129,7 +106,15 @@ impl Compiler {
     }
 
     fn from_source(source: Source) -> Self {
-        Self { source, runtime_path: "::subsurface_runtime".to_owned(), gbuffer: true, passes: Vec::new() }
+        Self {
+            source,
+            runtime_path: "::subsurface_runtime".to_owned(),
+            gbuffer: true,
+            passes: Vec::new(),
+            kernel: None,
+            rejection: None,
+            output_format: OutputFormat::default(),
+        }
     }
 
     /// Path of the runtime crate in the generated Rust; `::subsurface_runtime` if not given.
@@ -152,6 +137,28 @@ impl Compiler {
     #[must_use]
     pub fn with_pass(mut self, pass: Pass) -> Self {
         self.passes.push(pass);
+        self
+    }
+
+    /// Generates this kernel, whatever the set's own file says; that, or else [`Kernel::default`], if not given.
+    #[must_use]
+    pub fn kernel(mut self, kernel: Kernel) -> Self {
+        self.kernel = Some(kernel);
+        self
+    }
+
+    /// Which taps the kernel leaves out, whatever the set's own file says; that, or else [`Rejection::default`], if not
+    /// given.
+    #[must_use]
+    pub fn rejection(mut self, rejection: Rejection) -> Self {
+        self.rejection = Some(rejection);
+        self
+    }
+
+    /// Format of the texture that the compute path writes; [`OutputFormat::default`] if not given.
+    #[must_use]
+    pub fn output_format(mut self, format: OutputFormat) -> Self {
+        self.output_format = format;
         self
     }
 
@@ -188,24 +195,51 @@ impl Compiler {
                 return Err(report);
             }
         };
-        let provenance = self.provenance(&report);
-        let mut roots = SUBSURFACE_ENTRIES.to_vec();
-        if self.gbuffer {
-            roots.extend(GBUFFER_ENTRIES);
+        let rejection = self.rejection.unwrap_or(set.rejection);
+        // A kernel that the caller names is not searched.
+        let request = set.quality.as_ref().filter(|_| self.kernel.is_none());
+        let quality = match request.map(|request| solve(&set, rejection, request)).transpose() {
+            Ok(quality) => quality,
+            Err(error) => {
+                report.push(error.into());
+                return Err(report);
+            }
+        };
+        let searched = quality.as_ref().map(|quality| quality.kernel);
+        let choices = Choices {
+            kernel: self.kernel.or(searched).unwrap_or(set.kernel),
+            rejection,
+            output_format: self.output_format,
+        };
+        if let Some(expected) = choices.kernel.refused_taps() {
+            let (kind, taps) = (choices.kernel.kind_name(), choices.kernel.taps());
+            report.push(
+                Diagnostic::error(format!("the kernel `{kind}` cannot have {taps} taps"))
+                    .help(format!("give `Compiler::kernel` {expected}")),
+            );
+            return Err(report);
         }
-        roots.extend(self.passes.iter().flat_map(|pass| pass.entry_points));
-        let Some(kernel) =
-            Kernel::generate(&set, &self.passes, &roots, &header(&set, &provenance), &mut report)
-        else {
+        let provenance = self.provenance(&report, &choices);
+        let header = header(&set, &choices, quality.as_ref(), &provenance);
+        let generated =
+            KernelModule::generate(&set, &choices, self.gbuffer, &self.passes, &header, &mut report);
+        let Some(KernelModule { linked, emitted, validated, reflection }) = generated else {
             return Err(report);
         };
-        let Kernel { linked, emitted, validated, reflection } = kernel;
         let module = &validated.module;
         if emitted.knots.len() > KNOT_LIMIT {
             let message = format!("{} knots in the tables of one set", emitted.knots.len());
             report.push(
                 Diagnostic::error(message)
                     .help(format!("a set holds at most {KNOT_LIMIT}: use wider bins or fewer tables")),
+            );
+            return Err(report);
+        }
+        if emitted.curves.texels() > CURVE_TEXEL_LIMIT {
+            report.push(
+                Diagnostic::error("the Gaussian sums of one set have too many terms").help(format!(
+                    "a set holds about {CURVE_TEXEL_LIMIT}: use fewer terms, or two directories"
+                )),
             );
             return Err(report);
         }
@@ -226,11 +260,14 @@ impl Compiler {
                 set: &set,
                 rows: &emitted.rows,
                 provenance: &provenance,
+                kernel: choices.kernel,
+                curve_size: emitted.curves.size(),
                 has_tables: !profile_tables.is_empty(),
             },
             &row,
             &paths,
         );
+        tokens.extend(quality.as_ref().map(bindings::quality_tokens));
         tokens.extend(bindings::module_tokens(module, &linked.docs, &reflection, &paths, |_| true, &[]));
         let rust_header = format!(
             "// Generated by subsurface-codegen. Change the material files instead.\n// Provenance: {provenance}"
@@ -238,11 +275,16 @@ impl Compiler {
         Ok(Compilation {
             rust: bindings::format(&rust_header, tokens),
             manifest: crate::manifest::manifest(
-                &set,
+                &ManifestOf {
+                    set: &set,
+                    choices: &choices,
+                    quality: quality.as_ref(),
+                    curve_size: emitted.curves.size(),
+                    has_tables: !profile_tables.is_empty(),
+                    provenance: &provenance,
+                },
                 module,
                 &reflection,
-                &provenance,
-                !profile_tables.is_empty(),
             ),
             material_table: emitted
                 .rows
@@ -250,6 +292,11 @@ impl Compiler {
                 .flat_map(|value| bytes_of(module, row_handle, value))
                 .collect(),
             profile_tables,
+            profile_curves: emitted.curves.bytes(),
+            curve_size: emitted.curves.size(),
+            kernel: choices.kernel,
+            rejection: choices.rejection,
+            quality,
             wgsl: linked.text,
             set,
             provenance,
@@ -259,8 +306,8 @@ impl Compiler {
         })
     }
 
-    /// Compiles into Cargo's `OUT_DIR`: `subsurface.rs`, `subsurface.wgsl` and `subsurface.json`; tells Cargo which
-    /// files were read and prints warnings as Cargo's.
+    /// Compiles into Cargo's `OUT_DIR`: the files of [`Compilation::write_to`]; tells Cargo which files were read and
+    /// prints warnings as Cargo's.
     ///
     /// # Errors
     /// Material errors, or a file that cannot be written.
@@ -287,8 +334,9 @@ impl Compiler {
         }
     }
 
-    /// SHA-256 over what the output depends on: this crate's version, the shaders and every material file by name.
-    fn provenance(&self, report: &Report) -> String {
+    /// SHA-256 over what the output depends on: this crate's version, the shaders, the choices of the caller and every
+    /// material file by name.
+    fn provenance(&self, report: &Report, choices: &Choices) -> String {
         let mut hash = Sha256::new();
         let mut add = |name: &str, text: &[u8]| {
             for part in [name.as_bytes(), text] {
@@ -307,6 +355,7 @@ impl Compiler {
         }
         add("runtime path", self.runtime_path.as_bytes());
         add("G-buffer pass", &[u8::from(self.gbuffer)]);
+        add("choices", format!("{choices:?}").as_bytes());
         let sources = report.sources();
         let mut files: Vec<_> =
             sources.files().map(|file| (self.relative(sources.path(file)), sources.text(file))).collect();
@@ -333,95 +382,16 @@ impl Compiler {
     }
 }
 
-impl Compilation {
-    /// Writes `subsurface.rs`, `subsurface.wgsl` and `subsurface.json` into `directory`, each whole or not at all; a
-    /// file that already holds the text is left alone. A set with tabulated profiles adds `subsurface.tables`.
-    ///
-    /// # Errors
-    /// A file that cannot be written.
-    pub fn write_to(&self, directory: &Path) -> Result<(), BuildError> {
-        for (name, text) in [
-            ("subsurface.wgsl", self.wgsl.as_bytes()),
-            ("subsurface.rs", self.rust.as_bytes()),
-            ("subsurface.json", self.manifest.as_bytes()),
-            (PROFILE_TABLES_FILE, &self.profile_tables),
-        ] {
-            // Most sets have no tables, and need no empty file.
-            if !text.is_empty() {
-                output::write_if_changed(&directory.join(name), text)?;
-            }
-        }
-        Ok(())
-    }
-}
-
-/// File of the tables of tabulated profiles, beside the WGSL.
-pub(crate) const PROFILE_TABLES_FILE: &str = "subsurface.tables";
-
 const DEFECT: &str = "no material file is to blame: please report this as a defect of the compiler";
 
-/// A kernel module on its way to text.
-struct Kernel {
-    linked: Linked,
-    emitted: Emitted,
-    validated: Validated,
-    reflection: Reflection,
-}
-
-impl Kernel {
-    fn generate(
-        set: &MaterialSet,
-        passes: &[Pass],
-        roots: &[&str],
-        header: &str,
-        report: &mut Report,
-    ) -> Option<Self> {
-        let emitted = match emit(set) {
-            Ok(emitted) => emitted,
-            Err(unknown) => {
-                report.push(
-                    Diagnostic::error("this profile model has no shader yet")
-                        .label(unknown.span, "not supported by this version of the compiler")
-                        .help("use another model, or a newer version of subsurface-codegen"),
-                );
-                return None;
-            }
-        };
-        let in_use = |module: &&Module| {
-            emitted.models.iter().any(|model| module.name == format!("profiles/{}", model.stem()))
-        };
-        let kernel_passes = ["passes/subsurface", "passes/gbuffer"];
-        let modules: Vec<Module> = LIBRARY
-            .iter()
-            .chain(PROFILES.iter().filter(in_use))
-            .chain(KERNELS)
-            .chain(PASSES.iter().filter(|pass| kernel_passes.contains(&pass.name)))
-            .copied()
-            .chain(passes.iter().map(|pass| Module { name: pass.name, text: pass.text }))
-            .collect();
-        let linked = match link(&modules, &emitted.glue, roots, header) {
-            Ok(linked) => linked,
-            Err(error) => {
-                report.push(Diagnostic::error(error.to_string()).help(DEFECT));
-                return None;
-            }
-        };
-        let validated = validate(&linked, "subsurface.wgsl", report)?;
-        match reflect(&validated.module, &validated.info, &linked.docs) {
-            Ok(reflection) => Some(Self { linked, emitted, validated, reflection }),
-            Err(error) => {
-                report.push(Diagnostic::error(error.to_string()).help(DEFECT));
-                None
-            }
-        }
-    }
-}
-
-fn header(set: &MaterialSet, provenance: &str) -> String {
+fn header(set: &MaterialSet, choices: &Choices, quality: Option<&QualityReport>, provenance: &str) -> String {
     let mut header = format!(
         "// Generated by subsurface-codegen {} from material files. Change those instead.\n\
-         // Provenance: {provenance}\n//\n// Materials by number:\n",
-        env!("CARGO_PKG_VERSION")
+         // Provenance: {provenance}\n//\n// Kernel: {}\n{}// Rejects: {}\n//\n// Materials by number:\n",
+        env!("CARGO_PKG_VERSION"),
+        choices.kernel,
+        quality.map(QualityReport::comment).unwrap_or_default(),
+        choices.rejection,
     );
     for (number, material) in set.materials.iter().enumerate() {
         let profile = material.profile.stem.as_deref().unwrap_or("inline profile");
@@ -443,109 +413,4 @@ fn paths(runtime: &str) -> Result<Paths, Box<Diagnostic>> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    const LENGTH_AND_ALBEDO: &str = "mean_free_path_mm: (1.3, 0.95, 0.67), surface_albedo: (0.8, 0.6, 0.4)";
-
-    fn material(profile: &str) -> String {
-        format!("Material(profile: {profile}, {LENGTH_AND_ALBEDO})")
-    }
-
-    fn compile(files: &[(&str, String)]) -> Compilation {
-        let files = files.iter().map(|(path, text)| (*path, text.as_str()));
-        Compiler::from_memory(files).compile().unwrap_or_else(|report| panic!("{report}"))
-    }
-
-    #[test]
-    fn only_the_models_in_use_are_linked_in() {
-        let one = compile(&[("a.ron", material("Burley(parametrization: Diffuse)"))]);
-        assert!(one.wgsl.contains("fn burley_sample_radius"));
-        for other in ["polynomial", "gaussian_sum", "exponential_dipole"] {
-            assert!(
-                !one.wgsl.contains(&format!("fn {other}")) && !one.wgsl.contains(&format!("{other}:")),
-                "{other}"
-            );
-        }
-        assert!(!one.wgsl.contains("switch profile.model"), "one model needs no switch");
-        let two = compile(&[
-            ("a.ron", material("Burley(parametrization: Diffuse)")),
-            ("b.ron", material("ExponentialDipole(entry: Searchlight)")),
-        ]);
-        assert!(
-            two.wgsl.contains("switch profile.model")
-                && two.wgsl.contains("fn exponential_dipole_radial_cdf")
-        );
-    }
-
-    #[test]
-    fn dead_functions_are_dropped_with_the_pass_that_used_them() {
-        let files = [("a.ron", material("Burley(parametrization: Diffuse)"))];
-        let whole = compile(&files);
-        assert!(whole.wgsl.contains("fn gbuffer_fragment") && whole.wgsl.contains("fn burley_radial_cdf"));
-        let files = files.iter().map(|(path, text)| (*path, text.as_str()));
-        let lean = Compiler::from_memory(files).without_gbuffer().compile().unwrap_or_else(|r| panic!("{r}"));
-        for name in
-            ["fn gbuffer_fragment", "fn burley_radial_cdf", "fn shadow_visibility", "fn specular_reflection"]
-        {
-            assert!(!lean.wgsl.contains(name), "{name} is dead without the G-buffer pass");
-        }
-    }
-
-    #[test]
-    fn the_order_of_the_files_changes_no_byte() {
-        let names = ["apple.ron", "bone.ron", "cream.ron", "profiles/mine.ron"];
-        let text = |name: &str| match name {
-            "profiles/mine.ron" => {
-                "GaussianSum([(variance_mm2: 0.5, weight: 0.8), (variance_mm2: 2, weight: 0.2)])".to_owned()
-            }
-            "bone.ron" => material("\"mine\""),
-            _ => material("Burley(parametrization: Searchlight)"),
-        };
-        let compiled = |order: &[usize]| {
-            let files: Vec<_> = order.iter().map(|&i| (names[i], text(names[i]))).collect();
-            let compilation = compile(&files);
-            (compilation.wgsl, compilation.rust, compilation.manifest, compilation.material_table)
-        };
-        let first = compiled(&[0, 1, 2, 3]);
-        assert!(first == compiled(&[3, 2, 1, 0]) && first == compiled(&[2, 0, 3, 1]));
-    }
-
-    #[test]
-    fn provenance_follows_the_inputs() {
-        let a = compile(&[("a.ron", material("Burley(parametrization: Diffuse)"))]);
-        let same = compile(&[("a.ron", material("Burley(parametrization: Diffuse)"))]);
-        let other = compile(&[("a.ron", material("Burley(parametrization: Searchlight)"))]);
-        assert_eq!(a.provenance, same.provenance);
-        assert_ne!(a.provenance, other.provenance);
-        assert!(
-            a.wgsl.contains(&a.provenance)
-                && a.rust.contains(&a.provenance)
-                && a.manifest.contains(&a.provenance)
-        );
-    }
-
-    #[test]
-    fn equal_gaussian_sums_share_their_terms() {
-        let skin = || material("\"gaussian_skin\"");
-        let compilation = compile(&[("a.ron", skin()), ("b.ron", skin())]);
-        assert!(compilation.wgsl.contains("array<vec4f, 6>"), "two materials, six terms");
-    }
-
-    #[test]
-    fn a_runtime_path_that_is_none_is_refused() {
-        let files = [("a.ron", material("Burley(parametrization: Diffuse)"))];
-        let files = files.iter().map(|(path, text)| (*path, text.as_str()));
-        let report = Compiler::from_memory(files).runtime_path("not a path").compile().expect_err("no path");
-        assert!(report.render(false).contains("`not a path` is no Rust path"));
-    }
-
-    #[test]
-    fn too_many_materials_are_refused() {
-        let files: Vec<_> = (0..=MATERIAL_LIMIT)
-            .map(|i| (format!("m{i}.ron"), material("Burley(parametrization: Diffuse)")))
-            .collect();
-        let report = Compiler::from_memory(files).compile().expect_err("2049 materials");
-        assert!(report.render(false).contains("a set holds at most 2048"));
-    }
-}
+mod tests;

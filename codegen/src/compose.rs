@@ -28,6 +28,8 @@ pub(crate) struct Linked {
     pub(crate) docs: Docs,
     /// Names of the modules that contributed, in the order of the text, and where their part starts.
     pub(crate) modules: Vec<(usize, String)>,
+    /// The module that declares each name that was kept.
+    pub(crate) module_of: BTreeMap<String, String>,
 }
 
 impl Linked {
@@ -103,8 +105,13 @@ pub(crate) fn link(
     }
     let reached = reach(&declared, roots)?;
 
-    let mut linked =
-        Linked { text: header.to_owned(), origins: Vec::new(), docs: Docs::default(), modules: Vec::new() };
+    let mut linked = Linked {
+        text: header.to_owned(),
+        origins: Vec::new(),
+        docs: Docs::default(),
+        modules: Vec::new(),
+        module_of: BTreeMap::new(),
+    };
     for (module, part) in &parts {
         let kept: Vec<_> = part.items.iter().filter(|item| reached.contains(item.name)).collect();
         if kept.is_empty() {
@@ -119,6 +126,7 @@ pub(crate) fn link(
         for item in kept {
             linked.text.push('\n');
             linked.docs.add(item);
+            linked.module_of.insert(item.name.to_owned(), (*module).to_owned());
             if *module == GLUE {
                 linked.keep_origins(glue, item);
             }

@@ -7,67 +7,17 @@ use std::fmt::Write as _;
 use subsurface_profile::{GaussianSumModel, Model, TabulatedModel};
 
 use crate::compose::Glue;
+use crate::curves::{CurvePlace, Curves, NoProfile};
+use crate::diagnostics::Diagnostic;
 use crate::identifier::screaming_case;
-use crate::material::{Material, MaterialSet, ResolvedProfile};
+use crate::kernel::Kernel;
+use crate::material::{Material, MaterialSet};
+use crate::model_kind::ModelKind;
+use crate::output_format::OutputFormat;
+use crate::rejection::{Rejected, Rejection};
+use crate::schema::rounded;
 use crate::source::Span;
 use crate::value::{Value, single};
-
-/// The profile models, in the order of their numbers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum ModelKind {
-    Burley,
-    ExponentialDipole,
-    GaussianSum,
-    Polynomial,
-    Tabulated,
-    TwoExponentialDipole,
-}
-
-impl ModelKind {
-    fn of(model: &Model) -> Option<Self> {
-        match model {
-            Model::Burley(_) => Some(Self::Burley),
-            Model::ExponentialDipole(_) => Some(Self::ExponentialDipole),
-            Model::GaussianSum(_) => Some(Self::GaussianSum),
-            Model::Polynomial(_) => Some(Self::Polynomial),
-            Model::Tabulated(_) => Some(Self::Tabulated),
-            Model::TwoExponentialDipole(_) => Some(Self::TwoExponentialDipole),
-            _ => None,
-        }
-    }
-
-    /// Stem of the shader module, prefix of its functions and name of the row's field.
-    pub(crate) fn stem(self) -> &'static str {
-        match self {
-            Self::Burley => "burley",
-            Self::ExponentialDipole => "exponential_dipole",
-            Self::GaussianSum => "gaussian_sum",
-            Self::Polynomial => "polynomial",
-            Self::Tabulated => "tabulated",
-            Self::TwoExponentialDipole => "two_exponential_dipole",
-        }
-    }
-
-    fn structure(self) -> &'static str {
-        match self {
-            Self::Burley => "BurleyModel",
-            Self::ExponentialDipole => "ExponentialDipoleModel",
-            Self::GaussianSum => "GaussianSumModel",
-            Self::Polynomial => "PolynomialModel",
-            Self::Tabulated => "TabulatedModel",
-            Self::TwoExponentialDipole => "TwoExponentialDipoleModel",
-        }
-    }
-
-    /// Whether the model's functions take the `shape` of its row besides the coefficients.
-    fn has_shape(self) -> bool {
-        self == Self::TwoExponentialDipole
-    }
-
-    fn constant(self) -> String {
-        format!("MODEL_{}", self.stem().to_ascii_uppercase())
-    }
-}
 
 /// The glue text of a set and the values of its table.
 #[derive(Debug)]
@@ -77,44 +27,78 @@ pub(crate) struct Emitted {
     pub(crate) rows: Vec<Value>,
     /// The knots of all tables, as in `TabulatedKnot` of the shaders; empty where the set uses none.
     pub(crate) knots: Vec<Value>,
+    /// The profiles as a texture of radii.
+    pub(crate) curves: Curves,
     /// Models in use, by number.
     pub(crate) models: Vec<ModelKind>,
 }
 
-/// A model that this compiler knows no shader for.
+/// What a set is compiled for, beside its materials.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Choices {
+    pub(crate) kernel: Kernel,
+    pub(crate) rejection: Rejection,
+    pub(crate) output_format: OutputFormat,
+}
+
+/// Why nothing can be emitted for a set.
 #[derive(Clone, Debug)]
-pub(crate) struct UnknownModel {
-    pub(crate) span: Span,
+pub(crate) enum EmitError {
+    /// A model that this compiler knows no shader for, and where it is written.
+    UnknownModel(Span),
+    /// A model without a profile at a surface albedo that a texture may have.
+    NoProfile(NoProfile),
+}
+
+impl From<EmitError> for Diagnostic {
+    fn from(error: EmitError) -> Self {
+        match error {
+            EmitError::UnknownModel(span) => Diagnostic::error("this profile model has no shader yet")
+                .label(span, "not supported by this version of the compiler")
+                .help("use another model, or a newer version of subsurface-codegen"),
+            EmitError::NoProfile(NoProfile { span, surface_albedo, reason }) => {
+                let at = rounded(surface_albedo);
+                Diagnostic::error(format!("this model has no profile at surface albedo {at}: {reason}"))
+                    .label(span, "a texture may give any surface albedo from 0 to 1")
+                    .help("change the coefficients of the model, or use a published profile")
+            }
+        }
+    }
 }
 
 /// Writes the glue of `set`.
-pub(crate) fn emit(set: &MaterialSet) -> Result<Emitted, UnknownModel> {
+pub(crate) fn emit(set: &MaterialSet, choices: &Choices) -> Result<Emitted, EmitError> {
     let mut kinds = Vec::with_capacity(set.materials.len());
     for material in &set.materials {
-        let unknown = || UnknownModel { span: material.profile.span.clone() };
+        let unknown = || EmitError::UnknownModel(material.profile.span.clone());
         kinds.push(ModelKind::of(&material.profile.model).ok_or_else(unknown)?);
     }
+    let with_edges = matches!(choices.kernel, Kernel::Separable { .. });
+    let mut curves = Curves::bake(set, with_edges).map_err(EmitError::NoProfile)?;
     let models: Vec<ModelKind> = kinds.iter().copied().collect::<BTreeSet<_>>().into_iter().collect();
 
-    let mut shared = Shared::default();
+    let mut shared = Shared { terms: GaussianTerms::after(&curves), knots: TabulatedKnots::default() };
     let rows = set
         .materials
         .iter()
-        .zip(&kinds)
-        .map(|(material, &kind)| row(material, kind, &models, &mut shared))
+        .zip(kinds.iter().zip(&curves.places))
+        .map(|(material, (&kind, place))| row(material, kind, &models, place, &mut shared))
         .collect();
 
     let mut glue = Glue::default();
-    emit_constants(&mut glue.text, set, &models);
+    emit_constants(&mut glue, set, &models);
+    emit_choices(&mut glue.text, choices);
+    glue.text.push_str(PROFILE_CURVES);
     emit_row(&mut glue.text, &models);
     emit_dispatch(&mut glue.text, &models);
     if models.contains(&ModelKind::GaussianSum) {
-        emit_gaussian_terms(&mut glue, &shared.terms);
+        glue.text.push_str(GAUSSIAN_TERMS);
+        curves.append(&shared.terms.texels);
     }
     if models.contains(&ModelKind::Tabulated) {
         glue.text.push_str(TABULATED_KNOTS);
     }
-    Ok(Emitted { glue, rows, knots: shared.knots.values, models })
+    Ok(Emitted { glue, rows, knots: shared.knots.values, curves, models })
 }
 
 /// Number of `kind` among the models in use.
@@ -123,7 +107,13 @@ fn number(models: &[ModelKind], kind: ModelKind) -> u32 {
     position.and_then(|p| u32::try_from(p).ok()).expect("a row's model is among the models in use")
 }
 
-fn row(material: &Material, kind: ModelKind, models: &[ModelKind], shared: &mut Shared) -> Value {
+fn row(
+    material: &Material,
+    kind: ModelKind,
+    models: &[ModelKind],
+    place: &CurvePlace,
+    shared: &mut Shared,
+) -> Value {
     let surface = Value::Struct(vec![
         ("length_mm", Value::vector(material.length_mm)),
         ("model", Value::U32(number(models, kind))),
@@ -131,6 +121,10 @@ fn row(material: &Material, kind: ModelKind, models: &[ModelKind], shared: &mut 
         ("reflectance_at_normal", Value::scalar(material.reflectance_at_normal)),
         ("roughness", Value::scalar(material.roughness)),
         ("transmission_strength", Value::scalar(material.transmission_strength)),
+        ("first_curve", Value::U32(place.first_curve)),
+        ("curve_count", Value::U32(place.curve_count)),
+        ("first_edge", Value::U32(place.first_edge)),
+        ("edge_reach", Value::scalar(place.edge_reach)),
     ]);
     let mut fields = vec![("surface", surface), (kind.stem(), coefficients(material, shared))];
     // Models are told apart by number; the coefficients of the others stay zero.
@@ -182,7 +176,7 @@ fn coefficients(material: &Material, shared: &mut Shared) -> Value {
             ("c_offset", Value::scalar(model.c.offset)),
         ]),
         Model::GaussianSum(model) => {
-            let (first, count) = shared.terms.add(model, &material.profile);
+            let (first, count) = shared.terms.add(model);
             Value::Struct(vec![("first_term", Value::U32(first)), ("term_count", Value::U32(count))])
         }
         Model::Tabulated(model) => Value::Struct(vec![
@@ -195,7 +189,7 @@ fn coefficients(material: &Material, shared: &mut Shared) -> Value {
 }
 
 /// What several rows may point into.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 struct Shared {
     terms: GaussianTerms,
     knots: TabulatedKnots,
@@ -231,9 +225,10 @@ impl TabulatedKnots {
     }
 }
 
-/// A number of knots; a model has at most `TabulatedModel::MAXIMUM_ENTRIES` of them, a set at most 2048 models.
-fn number_of(knots: usize) -> u32 {
-    u32::try_from(knots).expect("2048 models of 2^18 knots are fewer than 2^32")
+/// A number of knots or terms: a model has at most `TabulatedModel::MAXIMUM_ENTRIES` knots, a file of 1 MiB fewer terms,
+/// a set at most 2048 models.
+fn number_of(entries: usize) -> u32 {
+    u32::try_from(entries).expect("2048 models of 2^18 entries are fewer than 2^32")
 }
 
 /// How the shaders reach the knots: in a buffer, since a variable would be copied to every invocation. By this
@@ -248,52 +243,122 @@ fn tabulated_knot(index: u32) -> TabulatedKnot {
 }
 ";
 
+/// How the shaders reach the terms of Gaussian sums: as texels behind the curves. An array in the module, constant or
+/// not, is copied by drivers each time it is indexed.
+const GAUSSIAN_TERMS: &str = "\
+/// Term `index` of the Gaussian sums: weight (red, green, blue; their sum is 1 per channel and model) and variance, mm².
+fn gaussian_sum_term(index: u32) -> vec4f {
+    return textureLoad(profile_curves, curve_place(i32(index / 64u), i32(index % 64u)), 0);
+}
+";
+
 /// Terms of all Gaussian sums of a set; equal sums share theirs.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 struct GaussianTerms {
-    sums: Vec<(GaussianSumModel, u32, ResolvedProfile)>,
-    count: u32,
+    sums: Vec<(GaussianSumModel, u32)>,
+    /// Number of the first term: terms are counted like the texels of the curves before them.
+    start: u32,
+    /// Weights and variance of each term.
+    texels: Vec<[f32; 4]>,
 }
 
 impl GaussianTerms {
+    /// Terms that stand behind `curves`.
+    fn after(curves: &Curves) -> Self {
+        Self { sums: Vec::new(), start: curves.texels(), texels: Vec::new() }
+    }
+
     /// First term and number of terms of `model`.
-    fn add(&mut self, model: &GaussianSumModel, profile: &ResolvedProfile) -> (u32, u32) {
-        let count =
-            u32::try_from(model.terms.len()).expect("a file of at most 1 MiB lists fewer than 2^32 terms");
-        if let Some((_, first, _)) = self.sums.iter().find(|(known, ..)| known == model) {
+    fn add(&mut self, model: &GaussianSumModel) -> (u32, u32) {
+        let count = number_of(model.terms.len());
+        if let Some((_, first)) = self.sums.iter().find(|(known, _)| known == model) {
             return (*first, count);
         }
-        let first = self.count;
-        self.sums.push((model.clone(), first, profile.clone()));
-        self.count += count;
+        let first = self.start + number_of(self.texels.len());
+        self.sums.push((model.clone(), first));
+        let sums = [0, 1, 2].map(|channel| model.terms.iter().map(|term| term.weight[channel]).sum::<f64>());
+        self.texels.extend(model.terms.iter().map(|term| {
+            let [red, green, blue] = [0, 1, 2].map(|channel| single(term.weight[channel] / sums[channel]));
+            [red, green, blue, single(term.variance_mm2)]
+        }));
         (first, count)
     }
 }
 
-fn emit_constants(text: &mut String, set: &MaterialSet, models: &[ModelKind]) {
+/// The constant that holds a material's number.
+pub(crate) fn material_constant(name: &str) -> String {
+    format!("MATERIAL_{}", screaming_case(name))
+}
+
+fn emit_constants(glue: &mut Glue, set: &MaterialSet, models: &[ModelKind]) {
+    let text = &mut glue.text;
     let material_count = set.materials.len();
     let _ = writeln!(text, "/// Materials in the set.\nconst MATERIALS_IN_SET: u32 = {material_count}u;\n");
+    let bits = usize::BITS - material_count.leading_zeros();
+    let _ = writeln!(
+        text,
+        "/// Bits that hold a material number + 1, 0 for none.\nconst MATERIAL_BITS: u32 = {bits}u;\n"
+    );
     // Nothing of ours names a material, but a pass of the caller's own may; unused ones are dropped.
     for (number, material) in set.materials.iter().enumerate() {
-        let name = screaming_case(&material.name);
-        let _ = writeln!(
-            text,
-            "/// Number of the material `{}`.\nconst MATERIAL_{name}: u32 = {number}u;\n",
-            material.name
-        );
+        let name = material_constant(&material.name);
+        let _ = write!(text, "/// Number of the material `{}`.\nconst ", material.name);
+        glue.origins.push((text.len()..text.len() + name.len(), material.span.clone()));
+        let _ = writeln!(text, "{name}: u32 = {number}u;\n");
     }
     for (number, model) in models.iter().enumerate() {
         let _ = writeln!(text, "const {}: u32 = {number}u;\n", model.constant());
     }
 }
 
+/// Constants that the passes branch on: a driver drops the branch that is not taken.
+fn emit_choices(text: &mut String, choices: &Choices) {
+    let Choices { kernel, rejection, output_format } = choices;
+    let returned = rejection.rejected == Rejected::ReturnedToCentre;
+    for (docs, name, value) in [
+        ("Taps on another material are left out.", "REJECT_BY_MATERIAL", rejection.by_material),
+        (
+            "Taps are weighted by their distance in space, not on the screen.",
+            "REJECT_BY_DISTANCE",
+            rejection.by_distance,
+        ),
+        (
+            "Taps count by the cosine between their normal and the centre's.",
+            "REJECT_BY_NORMAL",
+            rejection.by_normal,
+        ),
+        (
+            "Rejected weight goes to the pixel itself; else the other taps share it.",
+            "RETURN_TO_CENTRE",
+            returned,
+        ),
+        ("Each pixel turns the two axes of the kernel.", "SEPARABLE_ROTATED", kernel.is_rotated()),
+    ] {
+        let _ = writeln!(text, "/// {docs}\nconst {name}: bool = {value};\n");
+    }
+    let format = output_format.wgsl();
+    let _ = writeln!(
+        text,
+        "/// What the compute path writes to.\nalias DiffusedTexture = texture_storage_2d<{format}, write>;\n"
+    );
+}
+
+/// The texture of `Curves`.
+const PROFILE_CURVES: &str = "\
+/// Radii by share of the energy: a row of 64 texels per profile and surface albedo. A texel holds the value where its
+/// interval starts and the growth over it, of this row's surface albedo and of the next one's.
+@group(0) @binding(2) var profile_curves: texture_2d<f32>;
+
+";
+
 fn emit_row(text: &mut String, models: &[ModelKind]) {
     text.push_str("/// One row of the parameter table: a material.\nstruct SubsurfaceMaterial {\n");
     text.push_str("    /// What every material has.\n    surface: MaterialSurface,\n");
+    // The alignment that a uniform buffer demands of a struct in a struct, and that costs a storage buffer little.
     for model in models {
         let (stem, structure) = (model.stem(), model.structure());
         let _ = writeln!(text, "    /// Coefficients, if `surface.model` is {}.", model.constant());
-        let _ = writeln!(text, "    {stem}: {structure},");
+        let _ = writeln!(text, "    @align(16) {stem}: {structure},");
     }
     text.push_str("}\n\n");
 }
@@ -336,12 +401,12 @@ fn emit_dispatch(text: &mut String, models: &[ModelKind]) {
     let head = "fn material_profile(row: SubsurfaceMaterial, surface_albedo: f32, length_mm: f32, channel: u32) -> Profile";
     emit_switch(text, head, "row.surface.model", models, |model| {
         let stem = model.stem();
-        let arguments = match model {
-            ModelKind::GaussianSum => "channel",
-            _ => "surface_albedo, length_mm",
+        let (arguments, curve) = match model {
+            ModelKind::GaussianSum => ("channel", "channel_curve(row.surface, channel)"),
+            _ => ("surface_albedo, length_mm", "albedo_curve(row.surface, surface_albedo, length_mm)"),
         };
         let shape = if model.has_shape() { format!("row.{stem}.shape") } else { "vec4f()".to_owned() };
-        format!("Profile({}, {stem}_profile(row.{stem}, {arguments}), {shape})", model.constant())
+        format!("Profile({}, {stem}_profile(row.{stem}, {arguments}), {shape}, {curve})", model.constant())
     });
     for (function, argument, docs) in [
         ("area_pdf", "radius_mm", "R(r) / A per unit area, mm⁻². May diverge at r = 0."),
@@ -356,35 +421,4 @@ fn emit_dispatch(text: &mut String, models: &[ModelKind]) {
             format!("{}_{function}(profile.coefficients, {shape}{argument})", model.stem())
         });
     }
-}
-
-fn emit_gaussian_terms(glue: &mut Glue, terms: &GaussianTerms) {
-    let text = &mut glue.text;
-    text.push_str("/// Term `index` of the Gaussian sums: weight (red, green, blue) and variance, mm².\n");
-    text.push_str(
-        "fn gaussian_sum_term(index: u32) -> vec4f {\n    return GAUSSIAN_SUM_TERMS[index];\n}\n\n",
-    );
-    text.push_str(
-        "/// Weights (red, green, blue; their sum is 1 per channel and model) and variance, mm².\n\
-         /// A variable, though nothing writes it: drivers copy a constant array each time it is indexed.\n",
-    );
-    let _ = writeln!(
-        text,
-        "var<private> GAUSSIAN_SUM_TERMS: array<vec4f, {0}> = array<vec4f, {0}>(",
-        terms.count
-    );
-    for (model, _, profile) in &terms.sums {
-        let sum = |channel: usize| model.terms.iter().map(|term| term.weight[channel]).sum::<f64>();
-        let sums = [sum(0), sum(1), sum(2)];
-        for (index, term) in model.terms.iter().enumerate() {
-            let [red, green, blue] = [0, 1, 2].map(|channel| single(term.weight[channel] / sums[channel]));
-            let start = text.len() + 4;
-            let _ =
-                writeln!(text, "    vec4f({red:?}, {green:?}, {blue:?}, {:?}),", single(term.variance_mm2));
-            let spelled = profile.coefficient_spans.get(&format!("terms[{index}].variance_mm2"));
-            let origin = spelled.unwrap_or(&profile.span).clone();
-            glue.origins.push((start..text.len() - 2, origin));
-        }
-    }
-    text.push_str(");\n");
 }

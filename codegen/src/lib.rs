@@ -1,7 +1,8 @@
 //! Compiles materials in RON to validated WGSL kernels and typed Rust bindings.
 //!
-//! The central type is [`Compiler`]: a directory of materials in, a [`Compilation`] out (WGSL, Rust, a JSON manifest and
-//! the bytes of the parameter table), or a [`Report`] with every error of every file.
+//! The central type is [`Compiler`]: a directory of materials in, a [`Compilation`] out (WGSL, Rust, a JSON manifest, the
+//! bytes of the parameter table and the curves of the profiles), or a [`Report`] with every error of every file. Which
+//! [`Kernel`] diffuses is a choice of the set, or of the caller.
 //!
 //! In a `build.rs`:
 //!
@@ -18,19 +19,25 @@
 mod bindings;
 mod compiler;
 mod compose;
+mod curves;
 pub mod diagnostics;
 mod docs;
 mod emit;
 mod excerpt;
 mod identifier;
 mod item;
+mod kernel;
 mod layout;
 mod lint;
 pub mod load;
 mod manifest;
 pub mod material;
+mod model_kind;
 mod output;
+mod output_format;
+mod quality;
 mod reflect;
+mod rejection;
 mod resolve;
 mod schema;
 pub mod source;
@@ -42,10 +49,14 @@ mod value;
 
 pub use compiler::{Compilation, Compiler, Pass, runtime_bindings};
 pub use diagnostics::{Diagnostic, Report, Severity};
+pub use kernel::Kernel;
 pub use load::{
     Checked, Loaded, LoadedProfile, LoadedTable, check_paths, load_directory, load_memory, load_profile,
     load_profile_file, load_radial_table,
 };
 pub use material::{Material, MaterialSet, ResolvedProfile};
 pub use output::BuildError;
+pub use output_format::OutputFormat;
+pub use quality::{PictureReport, Quality, QualityReport, QualityRequest, Tier, TierReport};
+pub use rejection::{Rejected, Rejection};
 pub use source::{FileId, SourceMap, Span, Spanned};

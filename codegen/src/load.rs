@@ -9,11 +9,12 @@ use crate::diagnostics::{Diagnostic, Report};
 use crate::material::{MaterialSet, ResolvedProfile};
 use crate::resolve::{ChainEnd, Files, Resolution, chain, unknown_profile};
 use crate::schema::{
-    Decoder, ProfileExpression, ProfileFile, SCHEMA_VERSION as VERSION, decode_material, decode_profile_file,
+    Decoder, MaterialFile, ProfileExpression, ProfileFile, SCHEMA_VERSION as VERSION, SET, SetFile,
+    decode_material, decode_profile_file, decode_set_file,
 };
 use crate::source::{FileId, Span, Spanned};
 use crate::suggestion::list;
-use crate::syntax;
+use crate::syntax::{self, Document};
 
 pub use crate::table::LARGEST_TABLE;
 pub use reader::LARGEST_FILE;
@@ -61,7 +62,8 @@ pub struct Checked {
     pub files_read: Vec<PathBuf>,
 }
 
-/// Reads every material in `dir` and every profile in `dir/profiles`: all files whose extension is `ron`.
+/// Reads every material in `dir` and every profile in `dir/profiles`: all files whose extension is `ron`. One of those
+/// in `dir` may describe the set: `MaterialSet(…)`.
 #[must_use]
 pub fn load_directory(dir: &Path) -> Loaded {
     load(Reader::disk(), dir)
@@ -79,10 +81,11 @@ pub fn load_memory<P: AsRef<Path>, B: AsRef<[u8]>>(files: impl IntoIterator<Item
 }
 
 fn load(mut reader: Reader, dir: &Path) -> Loaded {
-    let materials = load_set(&mut reader, dir).materials;
+    let Resolution { materials, kernel, rejection, quality, .. } = load_set(&mut reader, dir);
     let complete = !reader.report.has_errors();
+    let set = complete.then_some(MaterialSet { materials, kernel, rejection, quality });
     let (report, files_read, directories_read) = reader.finish();
-    Loaded { set: complete.then_some(MaterialSet { materials }), report, files_read, directories_read }
+    Loaded { set, report, files_read, directories_read }
 }
 
 /// Reads one profile file; a profile that it names is looked for beside it, then among the built-in ones.
@@ -113,7 +116,8 @@ pub fn load_profile(dir: &Path, stem: &str) -> LoadedProfile {
 /// Reports on directories of materials, single material files, single profile files and tables (`.csv`).
 ///
 /// A single material is checked with the bases and profiles that it names; errors in files that it does not use are
-/// left out. A file in a folder named `profiles` is a profile, as is one whose value is not `Material(…)`.
+/// left out. A file in a folder named `profiles` is a profile, as is one whose value is neither `Material(…)` nor
+/// `MaterialSet(…)`.
 #[must_use]
 pub fn check_paths(paths: &[PathBuf]) -> Checked {
     let mut checked = Reader::disk();
@@ -144,8 +148,8 @@ fn check_file(reader: &mut Reader, path: &Path) {
     let text = reader.text(file);
     match syntax::parse(file, &text) {
         Err(error) => reader.report.push(*error),
-        Ok(document) if !in_profiles && document.value.name().is_some_and(|name| name.text == "Material") => {
-            check_material(reader, path, folder, file);
+        Ok(document) if !in_profiles && is_of_set(&document) => {
+            check_with_its_set(reader, path, folder, file);
         }
         Ok(_) => {
             load_profile_path(reader, path);
@@ -153,8 +157,13 @@ fn check_file(reader: &mut Reader, path: &Path) {
     }
 }
 
-/// Reads the whole set that a material belongs to, and keeps what is said about the material.
-fn check_material(reader: &mut Reader, path: &Path, folder: &Path, file: FileId) {
+/// Whether a file holds a material, or describes the set.
+fn is_of_set(document: &Document<'_>) -> bool {
+    document.value.name().is_some_and(|name| name.text == "Material" || name.text == SET)
+}
+
+/// Reads the whole set that a file belongs to, and keeps what is said about the file.
+fn check_with_its_set(reader: &mut Reader, path: &Path, folder: &Path, file: FileId) {
     let known: Vec<Diagnostic> = reader.report.iter().cloned().collect();
     reader.report.retain(|_| false);
     // The current directory has an empty path here, and cannot be listed by it.
@@ -186,7 +195,7 @@ fn load_set(reader: &mut Reader, dir: &Path) -> Resolution {
         return Resolution::default(); // one error is enough for a directory that is not there
     }
     let resolution = resolve_set(reader, &paths, &dir.join(PROFILES));
-    if paths.is_empty() {
+    if !resolution.has_materials {
         let shown = if dir == Path::new("") { "the set".to_owned() } else { format!("`{}`", dir.display()) };
         reader.report.push(
             Diagnostic::error(format!("{shown} has no materials"))
@@ -205,25 +214,10 @@ fn resolve_set(reader: &mut Reader, paths: &[PathBuf], profiles: &Path) -> Resol
     let mut files = Files::default();
     for path in paths {
         let stem = stem(path);
-        let material = reader.read(path).and_then(|file| {
-            let text = reader.text(file);
-            let mut tables = TablesBeside::new(reader, path);
-            let mut decoder = Decoder::with_tables(&mut tables);
-            let material = match syntax::parse(file, &text) {
-                Ok(document) => decode_material(&mut decoder, file, &stem, &document),
-                Err(error) => {
-                    decoder.report(*error);
-                    None
-                }
-            };
-            for diagnostic in decoder.finish(&Span::new(file, 0..text.len())) {
-                reader.report.push(diagnostic);
-            }
-            material
-        });
-        match material {
-            Some(material) => files.materials.push(material),
-            None => {
+        match reader.read(path).map(|file| decode(reader, file, path, &stem)) {
+            Some(OfSet::Material(Some(material))) => files.materials.push(*material),
+            Some(OfSet::Set(set)) => files.sets.extend(set),
+            Some(OfSet::Material(None)) | None => {
                 files.broken_materials.insert(stem);
             }
         }
@@ -237,6 +231,32 @@ fn resolve_set(reader: &mut Reader, paths: &[PathBuf], profiles: &Path) -> Resol
         reader.report.push(diagnostic.clone());
     }
     resolution
+}
+
+/// What a file of a materials directory holds; `None` when nothing in it can be trusted.
+enum OfSet {
+    Material(Option<Box<MaterialFile>>),
+    Set(Option<SetFile>),
+}
+
+fn decode(reader: &mut Reader, file: FileId, path: &Path, stem: &str) -> OfSet {
+    let text = reader.text(file);
+    let mut tables = TablesBeside::new(reader, path);
+    let mut decoder = Decoder::with_tables(&mut tables);
+    let decoded = match syntax::parse(file, &text) {
+        Ok(document) if document.value.name().is_some_and(|name| name.text == SET) => {
+            OfSet::Set(decode_set_file(&mut decoder, &document))
+        }
+        Ok(document) => OfSet::Material(decode_material(&mut decoder, file, stem, &document).map(Box::new)),
+        Err(error) => {
+            decoder.report(*error);
+            OfSet::Material(None)
+        }
+    };
+    for diagnostic in decoder.finish(&Span::new(file, 0..text.len())) {
+        reader.report.push(diagnostic);
+    }
+    decoded
 }
 
 /// Reads all profiles of a folder; errors come back unreported, for they are to name the materials concerned.

@@ -3,23 +3,33 @@
 use naga::Module;
 use serde_json::{Value, json};
 
-use crate::compiler::PROFILE_TABLES_FILE;
+use crate::compiler::{PROFILE_CURVES_FILE, PROFILE_TABLES_FILE};
 use crate::docs::Docs;
+use crate::emit::Choices;
 use crate::layout::{FieldType, structure};
 use crate::material::MaterialSet;
+use crate::quality::QualityReport;
 use crate::reflect::{Bound, Reflection, Resource, Sample};
 
 /// Version of the manifest's own form.
-const MANIFEST_VERSION: u32 = 1;
+const MANIFEST_VERSION: u32 = 2;
 
-pub(crate) fn manifest(
-    set: &MaterialSet,
-    module: &Module,
-    reflection: &Reflection,
-    provenance: &str,
-    has_tables: bool,
-) -> String {
-    let materials: Vec<Value> = set
+/// What the manifest says of a set, beside what the module says itself.
+pub(crate) struct ManifestOf<'a> {
+    pub(crate) set: &'a MaterialSet,
+    pub(crate) choices: &'a Choices,
+    /// What the kernel was chosen by.
+    pub(crate) quality: Option<&'a QualityReport>,
+    /// Width and height of the texture of curves, texels.
+    pub(crate) curve_size: [u32; 2],
+    /// Whether the kernel reads tables of profiles.
+    pub(crate) has_tables: bool,
+    pub(crate) provenance: &'a str,
+}
+
+pub(crate) fn manifest(of: &ManifestOf<'_>, module: &Module, reflection: &Reflection) -> String {
+    let materials: Vec<Value> = of
+        .set
         .materials
         .iter()
         .enumerate()
@@ -42,14 +52,25 @@ pub(crate) fn manifest(
     let entry_points: Vec<Value> = reflection
         .entry_points
         .iter()
-        .map(|entry| json!({ "name": entry.name, "stage": format!("{:?}", entry.stage).to_lowercase() }))
+        .map(|entry| {
+            let stage = format!("{:?}", entry.stage).to_lowercase();
+            let mut value = json!({ "name": entry.name, "stage": stage });
+            if let Some(size) = entry.workgroup_size {
+                value["workgroup_size"] = json!(size);
+            }
+            value
+        })
         .collect();
     let groups: Vec<Value> = reflection
         .groups
         .iter()
-        .map(|(number, group)| {
-            let bindings: Vec<Value> = group.iter().map(|(number, bound)| binding(*number, bound)).collect();
-            json!({ "group": number, "bindings": bindings })
+        .map(|group| {
+            let bindings = group.bindings.iter().map(|(number, bound)| binding(*number, bound));
+            json!({
+                "group": group.number,
+                "entry_points": group.entry_points,
+                "bindings": bindings.collect::<Vec<_>>(),
+            })
         })
         .collect();
     let structures: Vec<Value> = reflection
@@ -68,30 +89,64 @@ pub(crate) fn manifest(
             json!({ "name": structure.name, "size": structure.size, "fields": fields })
         })
         .collect();
+    let Choices { kernel, rejection, output_format } = of.choices;
     let mut manifest = json!({
         "version": MANIFEST_VERSION,
-        "provenance": provenance,
+        "provenance": of.provenance,
         "wgsl": "subsurface.wgsl",
+        "kernel": { "kind": kernel.kind_name(), "taps": kernel.taps(), "rotated": kernel.is_rotated() },
+        "rejection": {
+            "by_material": rejection.by_material,
+            "by_distance": rejection.by_distance,
+            "by_normal": rejection.by_normal,
+            "rejected": rejection.rejected.name(),
+        },
+        "output_format": output_format.wgsl(),
+        "profile_curves": { "file": PROFILE_CURVES_FILE, "format": "rgba32float", "size": of.curve_size },
         "materials": materials,
         "entry_points": entry_points,
         "bind_groups": groups,
         "structs": structures,
     });
-    if has_tables {
+    if let Some(report) = of.quality {
+        manifest["quality"] = quality(report);
+    }
+    if of.has_tables {
         manifest["profile_tables"] = json!(PROFILE_TABLES_FILE);
     }
     format!("{manifest:#}\n")
+}
+
+fn quality(report: &QualityReport) -> Value {
+    let tiers = report.tiers.iter().map(|tier| {
+        let name = tier.tier.name().to_lowercase();
+        json!({ "tier": name, "max_error": tier.tier.target(), "taps": tier.taps, "error": tier.error })
+    });
+    let pictures = report.pictures.iter().map(|picture| {
+        json!({
+            "name": picture.name,
+            "mean_radius_pixels": picture.mean_radius_pixels,
+            "error": picture.error,
+            "worst_pixel": picture.worst_pixel,
+        })
+    });
+    json!({
+        "error": report.error,
+        "worst_pixel": report.worst_pixel,
+        "tiers": tiers.collect::<Vec<_>>(),
+        "pictures": pictures.collect::<Vec<_>>(),
+    })
 }
 
 fn binding(number: u32, bound: &Bound) -> Value {
     let stages: Vec<String> = bound.stages.iter().map(|stage| format!("{stage:?}").to_lowercase()).collect();
     let mut value = json!({ "binding": number, "name": bound.name, "stages": stages });
     let what = match &bound.resource {
-        Resource::Uniform { size, structure } => {
-            json!({ "kind": "uniform", "min_binding_size": size, "struct": structure })
+        Resource::Uniform { size, holds } => {
+            json!({ "kind": "uniform", "min_binding_size": size, "type": holds })
         }
-        Resource::Storage { size, structure, read_only } => {
-            json!({ "kind": "storage", "min_binding_size": size, "struct": structure, "read_only": read_only })
+        Resource::Storage { size, holds, read_only } => {
+            json!({ "kind": "storage", "min_binding_size": size, "type": holds, "read_only": read_only })
         }
         Resource::Texture { sample, dimension, multisampled } => {
             let sample = match sample {
@@ -102,6 +157,16 @@ fn binding(number: u32, bound: &Bound) -> Value {
                 Sample::Depth => "depth",
             };
             json!({ "kind": "texture", "sample_type": sample, "dimension": dimension, "multisampled": multisampled })
+        }
+        Resource::StorageTexture { access, format, dimension } => {
+            let access = match *access {
+                "WriteOnly" => "write",
+                "ReadOnly" => "read",
+                "ReadWrite" => "read_write",
+                _ => "atomic",
+            };
+            let format = format.to_lowercase();
+            json!({ "kind": "storage-texture", "access": access, "format": format, "dimension": dimension })
         }
         Resource::Sampler { comparison } => json!({ "kind": "sampler", "comparison": comparison }),
     };

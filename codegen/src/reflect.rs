@@ -2,20 +2,23 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use naga::valid::{GlobalUse, ModuleInfo};
+use naga::valid::ModuleInfo;
 use naga::{
-    AddressSpace, Binding, GlobalVariable, Handle, ImageClass, ImageDimension, Module, ScalarKind,
-    ShaderStage, Type, TypeInner,
+    AddressSpace, Binding, GlobalVariable, Handle, ImageClass, ImageDimension, Module, Scalar, ScalarKind,
+    ShaderStage, StorageAccess, Type, TypeInner,
 };
 
+use crate::compose::Linked;
 use crate::docs::Docs;
+
+mod groups;
 
 /// Everything that bindings and the manifest are written from.
 #[derive(Debug)]
 pub(crate) struct Reflection {
     pub(crate) entry_points: Vec<EntryPoint>,
-    /// Bindings by group and number.
-    pub(crate) groups: BTreeMap<u32, BTreeMap<u32, Bound>>,
+    /// Bind groups by number, then in the order of the text.
+    pub(crate) groups: Vec<Group>,
     /// Structs that a buffer holds, inner ones before the ones that contain them.
     pub(crate) structures: Vec<Handle<Type>>,
     /// Structs that vertex shaders take as input.
@@ -26,7 +29,21 @@ pub(crate) struct Reflection {
 pub(crate) struct EntryPoint {
     pub(crate) name: String,
     pub(crate) stage: ShaderStage,
+    /// Invocations of a workgroup; `None` for a stage that has no workgroups.
+    pub(crate) workgroup_size: Option<[u32; 3]>,
     pub(crate) docs: Vec<String>,
+}
+
+/// The resources of one bind group.
+#[derive(Debug)]
+pub(crate) struct Group {
+    pub(crate) number: u32,
+    /// The module that declares it, where another one declares a group of this number too.
+    pub(crate) module: Option<String>,
+    /// By binding number.
+    pub(crate) bindings: BTreeMap<u32, Bound>,
+    /// The entry points that use one of them.
+    pub(crate) entry_points: Vec<String>,
 }
 
 /// One resource.
@@ -52,17 +69,24 @@ pub(crate) enum Resource {
     /// `size`: bytes that must be bound at least (one element, if the array's length is open).
     Uniform {
         size: u32,
-        structure: String,
+        /// The type that the buffer holds one or more of, as WGSL spells it.
+        holds: String,
     },
     Storage {
         size: u32,
-        structure: String,
+        holds: String,
         read_only: bool,
     },
     Texture {
         sample: Sample,
         dimension: &'static str,
         multisampled: bool,
+    },
+    /// A texture that is written to: names of `wgpu::StorageTextureAccess` and `wgpu::TextureFormat`.
+    StorageTexture {
+        access: &'static str,
+        format: String,
+        dimension: &'static str,
     },
     Sampler {
         comparison: bool,
@@ -98,49 +122,31 @@ pub(crate) struct UnsupportedBinding {
     reason: &'static str,
 }
 
+/// Reflects what `linked` became.
 pub(crate) fn reflect(
     module: &Module,
     info: &ModuleInfo,
-    docs: &Docs,
+    linked: &Linked,
 ) -> Result<Reflection, UnsupportedBinding> {
-    let mut groups: BTreeMap<u32, BTreeMap<u32, Bound>> = BTreeMap::new();
+    let docs = &linked.docs;
     let mut structures = Vec::new();
-    for (handle, global) in module.global_variables.iter() {
-        let Some(place) = &global.binding else { continue };
-        let stages = stages(module, info, handle);
-        let bound = Bound {
-            name: global.name.clone().unwrap_or_default(),
-            docs: docs.of(global.name.as_deref().unwrap_or_default()),
-            stages,
-            resource: resource(module, info, handle, global)?,
-        };
-        if matches!(bound.resource, Resource::Uniform { .. } | Resource::Storage { .. }) {
+    for (_, global) in module.global_variables.iter().filter(|(_, global)| global.binding.is_some()) {
+        if matches!(global.space, AddressSpace::Uniform | AddressSpace::Storage { .. }) {
             collect_structures(module, global.ty, &mut structures);
         }
-        groups.entry(place.group).or_default().insert(place.binding, bound);
     }
     let entry_points = module.entry_points.iter().map(|entry| EntryPoint {
         name: entry.name.clone(),
         stage: entry.stage,
+        workgroup_size: (entry.stage == ShaderStage::Compute).then_some(entry.workgroup_size),
         docs: docs.of(&entry.name),
     });
-    let entry_points = entry_points.collect();
-    Ok(Reflection { entry_points, groups, structures, vertex_inputs: vertex_inputs(module, docs) })
-}
-
-fn stages(module: &Module, info: &ModuleInfo, global: Handle<GlobalVariable>) -> BTreeSet<Stage> {
-    let mut stages = BTreeSet::new();
-    for (index, entry) in module.entry_points.iter().enumerate() {
-        if info.get_entry_point(index)[global] != GlobalUse::empty() {
-            stages.extend(match entry.stage {
-                ShaderStage::Vertex => Some(Stage::Vertex),
-                ShaderStage::Fragment => Some(Stage::Fragment),
-                ShaderStage::Compute => Some(Stage::Compute),
-                _ => None,
-            });
-        }
-    }
-    stages
+    Ok(Reflection {
+        entry_points: entry_points.collect(),
+        groups: groups::of(module, info, linked)?,
+        structures,
+        vertex_inputs: vertex_inputs(module, docs),
+    })
 }
 
 /// True if any entry point reads `image` through a sampler that filters.
@@ -164,18 +170,30 @@ fn resource(
     let unsupported = |reason| UnsupportedBinding { name: global.name.clone().unwrap_or_default(), reason };
     match global.space {
         AddressSpace::Uniform | AddressSpace::Storage { .. } => {
-            let (structure, size) = element(module, global.ty)
-                .ok_or_else(|| unsupported("a buffer must hold a struct, or an array of one"))?;
+            let (holds, size) = element(module, global.ty)
+                .ok_or_else(|| unsupported("a buffer must hold structs, vectors or numbers"))?;
             Ok(match global.space {
                 AddressSpace::Storage { access } => {
-                    let read_only = !access.contains(naga::StorageAccess::STORE);
-                    Resource::Storage { size, structure, read_only }
+                    let read_only = !access.contains(StorageAccess::STORE);
+                    Resource::Storage { size, holds, read_only }
                 }
-                _ => Resource::Uniform { size, structure },
+                _ => Resource::Uniform { size, holds },
             })
         }
         _ => match module.types[global.ty].inner {
             TypeInner::Sampler { comparison } => Ok(Resource::Sampler { comparison }),
+            TypeInner::Image { dim, arrayed, class: ImageClass::Storage { format, access } } => {
+                let access =
+                    match (access.contains(StorageAccess::LOAD), access.contains(StorageAccess::STORE)) {
+                        _ if access.contains(StorageAccess::ATOMIC) => "Atomic",
+                        (true, true) => "ReadWrite",
+                        (true, false) => "ReadOnly",
+                        (false, _) => "WriteOnly",
+                    };
+                // naga's formats have the names of wgpu's.
+                let format = format!("{format:?}");
+                Ok(Resource::StorageTexture { access, format, dimension: dimension(dim, arrayed) })
+            }
             TypeInner::Image { dim, arrayed, class } => {
                 let (sample, multisampled) = match class {
                     ImageClass::Depth { multi } => (Sample::Depth, multi),
@@ -184,37 +202,52 @@ fn resource(
                     }
                     ImageClass::Sampled { kind: ScalarKind::Sint, multi } => (Sample::Sint, multi),
                     ImageClass::Sampled { kind: ScalarKind::Uint, multi } => (Sample::Uint, multi),
-                    _ => return Err(unsupported("storage and external textures have no typed binding yet")),
+                    _ => return Err(unsupported("external textures have no typed binding yet")),
                 };
-                let dimension = match (dim, arrayed) {
-                    (ImageDimension::D1, _) => "D1",
-                    (ImageDimension::D2, false) => "D2",
-                    (ImageDimension::D2, true) => "D2Array",
-                    (ImageDimension::D3, _) => "D3",
-                    (ImageDimension::Cube, false) => "Cube",
-                    (ImageDimension::Cube, true) => "CubeArray",
-                };
-                Ok(Resource::Texture { sample, dimension, multisampled })
+                Ok(Resource::Texture { sample, dimension: dimension(dim, arrayed), multisampled })
             }
             _ => Err(unsupported("it is neither a buffer, a texture nor a sampler")),
         },
     }
 }
 
-/// Name of the struct that a buffer of type `ty` holds, and the bytes of one of them.
+/// Name of a `wgpu::TextureViewDimension`.
+fn dimension(dim: ImageDimension, arrayed: bool) -> &'static str {
+    match (dim, arrayed) {
+        (ImageDimension::D1, _) => "D1",
+        (ImageDimension::D2, false) => "D2",
+        (ImageDimension::D2, true) => "D2Array",
+        (ImageDimension::D3, _) => "D3",
+        (ImageDimension::Cube, false) => "Cube",
+        (ImageDimension::Cube, true) => "CubeArray",
+    }
+}
+
+/// The type that a buffer of type `ty` holds, as WGSL spells it, and the bytes of one of them.
 fn element(module: &Module, ty: Handle<Type>) -> Option<(String, u32)> {
-    match &module.types[ty].inner {
-        TypeInner::Struct { span, .. } => Some((module.types[ty].name.clone()?, *span)),
+    let scalar = |scalar: Scalar| match scalar {
+        Scalar::F32 => Some("f32"),
+        Scalar::I32 => Some("i32"),
+        Scalar::U32 => Some("u32"),
+        _ => None,
+    };
+    let inner = &module.types[ty].inner;
+    let name = match inner {
+        TypeInner::Struct { span, .. } => return Some((module.types[ty].name.clone()?, *span)),
         TypeInner::Array { base, size, stride } => {
             let (name, _) = element(module, *base)?;
             let length = match size {
                 naga::ArraySize::Constant(length) => length.get(),
                 _ => 1,
             };
-            Some((name, stride * length))
+            return Some((name, stride * length));
         }
-        _ => None,
-    }
+        TypeInner::Scalar(of) => scalar(*of)?.to_owned(),
+        TypeInner::Atomic(of) => format!("atomic<{}>", scalar(*of)?),
+        TypeInner::Vector { size, scalar: of } => format!("vec{}<{}>", *size as u32, scalar(*of)?),
+        _ => return None,
+    };
+    Some((name, inner.try_size(module.to_ctx())?))
 }
 
 fn collect_structures(module: &Module, ty: Handle<Type>, found: &mut Vec<Handle<Type>>) {

@@ -1,5 +1,6 @@
 //! Puts the files of a set together: bases, profiles by name, and what only several files together can get wrong.
 
+mod chain;
 mod cycle;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -8,11 +9,19 @@ use subsurface_profile::{Channel, Length, Medium, Model};
 
 use crate::diagnostics::Diagnostic;
 use crate::identifier::{self, camel_case, screaming_case};
+use crate::kernel::Kernel;
 use crate::lint;
 use crate::material::{Material, ResolvedProfile};
-use crate::schema::{Given, LengthGiven, MaterialFile, ProfileExpression, ProfileFile, Triple, rounded};
+use crate::quality::QualityRequest;
+use crate::rejection::Rejection;
+use crate::schema::{
+    Given, LengthGiven, MaterialFile, ProfileExpression, ProfileFile, SET, SetFile, Triple, rounded,
+};
 use crate::source::{FileId, Span, Spanned};
 use crate::suggestion::{closest, list, shortened};
+
+pub(crate) use chain::{ChainEnd, chain, unknown_profile};
+use chain::{check_aliases, profile_names};
 
 /// Specular reflectance at normal incidence when a material gives none: skin, n = 1.4 (L23 §5).
 const DEFAULT_REFLECTANCE_AT_NORMAL: f64 = 0.028;
@@ -32,6 +41,8 @@ pub(crate) struct Files {
     pub(crate) materials: Vec<MaterialFile>,
     /// Stems of material files with an error that hides all their fields.
     pub(crate) broken_materials: BTreeSet<String>,
+    /// The files of the set itself: one, or none.
+    pub(crate) sets: Vec<SetFile>,
     /// By stem.
     pub(crate) profiles: BTreeMap<String, ProfileFile>,
     /// The folder of the profiles, as displayed.
@@ -43,6 +54,12 @@ pub(crate) struct Files {
 pub(crate) struct Resolution {
     /// The materials without errors, sorted by name.
     pub(crate) materials: Vec<Material>,
+    /// What the set's own file chooses, or the defaults.
+    pub(crate) kernel: Kernel,
+    pub(crate) rejection: Rejection,
+    pub(crate) quality: Option<QualityRequest>,
+    /// Whether there is a file for a material, good or bad.
+    pub(crate) has_materials: bool,
     pub(crate) diagnostics: Vec<Diagnostic>,
     /// The files that each file of a material leans on: bases and profiles.
     pub(crate) dependencies: BTreeMap<FileId, BTreeSet<FileId>>,
@@ -79,7 +96,8 @@ struct Inherited<'a> {
 impl Resolution {
     /// Resolves all names among `files`.
     pub(crate) fn of(files: &Files) -> Self {
-        let mut resolution = Self::default();
+        let has_materials = !(files.materials.is_empty() && files.broken_materials.is_empty());
+        let mut resolution = Self { has_materials, ..Self::default() };
         let by_name = resolution.name_materials(files);
         let alias_errors = check_aliases(files);
         resolution.check_bases(files, &by_name);
@@ -98,7 +116,23 @@ impl Resolution {
         let alias_errors: Vec<_> =
             alias_errors.into_iter().map(|error| resolution.name_users(error)).collect();
         resolution.diagnostics.extend(alias_errors);
+        resolution.choose(&files.sets);
         resolution
+    }
+
+    /// Takes what the set's own file chooses; reports a second such file.
+    fn choose(&mut self, sets: &[SetFile]) {
+        let Some((first, others)) = sets.split_first() else { return };
+        self.kernel = first.kernel.value().copied().unwrap_or_default();
+        self.rejection = first.rejection.value().copied().unwrap_or_default();
+        self.quality = first.quality.value().cloned();
+        for other in others {
+            let diagnostic = Diagnostic::error("two files describe this set")
+                .label(other.head.clone(), "a set is described once")
+                .secondary(first.head.clone(), "first described here")
+                .help(format!("keep one file with `{SET}(…)`, by convention `set.ron`"));
+            self.diagnostics.push(diagnostic);
+        }
     }
 
     /// Adds to each error within a profile file the materials that use it.
@@ -422,28 +456,6 @@ impl Resolution {
     }
 }
 
-/// Reports profile files that name each other in a circle, or name nothing.
-fn check_aliases(files: &Files) -> Vec<Diagnostic> {
-    let mut diagnostics = Vec::new();
-    let mut edges = BTreeMap::new();
-    for (stem, file) in &files.profiles {
-        let Some(ProfileExpression::Named(target)) = &file.expression else { continue };
-        if files.profiles.contains_key(&target.value) {
-            edges.insert(stem.as_str(), (target.value.as_str(), &target.span));
-        } else if Model::published(&target.value).is_none() {
-            diagnostics.push(unknown_profile(files, target));
-        }
-    }
-    for cycle in cycle::find(&edges) {
-        let diagnostic = cycle::describe(&cycle, &edges, "profile", "imports itself", "is");
-        diagnostics.push(
-            diagnostic
-                .help("write a model in one of these files, such as `Burley(parametrization: Searchlight)`"),
-        );
-    }
-    diagnostics
-}
-
 fn finish(file: &MaterialFile, draft: Draft<'_>) -> Material {
     let number = |field: Option<&Spanned<f64>>, default| field.map_or(default, |field| field.value);
     Material {
@@ -457,80 +469,6 @@ fn finish(file: &MaterialFile, draft: Draft<'_>) -> Material {
         span: file.head.clone(),
         profile: draft.profile,
     }
-}
-
-/// The files passed on the way from a name to a model, and what was found.
-pub(crate) struct Chain {
-    pub(crate) files: Vec<FileId>,
-    pub(crate) end: ChainEnd,
-}
-
-pub(crate) enum ChainEnd {
-    /// A model written in a file.
-    Model(Box<ResolvedProfile>),
-    /// A published model and its stem.
-    Published(String, Model),
-    /// Neither a file nor a published profile has the last name.
-    Unknown,
-    /// A file with errors, or a cycle.
-    Broken,
-}
-
-/// Follows a name through alias files.
-pub(crate) fn chain(files: &Files, name: &str) -> Chain {
-    let mut passed = Vec::new();
-    let mut name = name;
-    let mut seen = BTreeSet::new();
-    let end = loop {
-        let Some(file) = files.profiles.get(name) else {
-            break Model::published(name)
-                .map_or(ChainEnd::Unknown, |model| ChainEnd::Published(name.to_owned(), model));
-        };
-        if !seen.insert(name) {
-            break ChainEnd::Broken;
-        }
-        passed.push(file.file);
-        match &file.expression {
-            None => break ChainEnd::Broken,
-            Some(ProfileExpression::Named(next)) => name = &next.value,
-            Some(ProfileExpression::Inline(inline)) => {
-                break ChainEnd::Model(Box::new(ResolvedProfile {
-                    stem: Some(file.stem.clone()),
-                    model: inline.model.clone(),
-                    docs: file.docs.clone(),
-                    span: inline.head.clone(),
-                    coefficient_spans: inline.coefficients.clone(),
-                }));
-            }
-        }
-    };
-    Chain { files: passed, end }
-}
-
-/// All names a profile may be called by, sorted.
-fn profile_names(files: &Files) -> impl Iterator<Item = &str> {
-    let names: BTreeSet<&str> = files.profiles.keys().map(String::as_str).chain(Model::PUBLISHED).collect();
-    names.into_iter()
-}
-
-/// The error for a name that is neither a file's nor a published profile's.
-pub(crate) fn unknown_profile(files: &Files, name: &Spanned<String>) -> Diagnostic {
-    let folder = &files.profiles_folder;
-    let text = &name.value;
-    let shown = shortened(text);
-    let mut diagnostic = Diagnostic::error(format!("unknown profile `{shown}`"))
-        .label(name.span.clone(), "neither a profile file nor a built-in profile");
-    let stem = text.rsplit(['/', '\\']).next().unwrap_or(text);
-    let stem = stem.strip_suffix(".ron").unwrap_or(stem);
-    if stem != text && profile_names(files).any(|other| other == stem) {
-        diagnostic = diagnostic.help(format!("write the stem of the file alone: `\"{stem}\"`"));
-    } else if let Some(meant) = closest(stem, profile_names(files)) {
-        diagnostic = diagnostic.help(format!("did you mean `{meant}`?"));
-    } else {
-        diagnostic = diagnostic
-            .help(format!("there is no file `{folder}/{shown}.ron`: write it, or use another profile"));
-    }
-    diagnostic.help(format!("the profiles are {}", some_of(profile_names(files))))
 }
 
 /// A list of names that does not grow without limit.

@@ -8,7 +8,9 @@ use crate::diagnostics::{Diagnostic, Report};
 use crate::source::Span;
 
 /// What plain WebGPU offers without optional features.
-const WEBGPU: Capabilities = Capabilities::CUBE_ARRAY_TEXTURES.union(Capabilities::MULTISAMPLED_SHADING);
+const WEBGPU: Capabilities = Capabilities::CUBE_ARRAY_TEXTURES
+    .union(Capabilities::MULTISAMPLED_SHADING)
+    .union(Capabilities::SHADER_FLOAT16_IN_FLOAT32);
 
 /// A module that naga accepts.
 #[derive(Debug)]

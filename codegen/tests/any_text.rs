@@ -4,8 +4,18 @@ use proptest::prelude::*;
 use subsurface_codegen::{Loaded, load_memory};
 
 /// Pieces that material files are made of, and some that they are not.
-const PIECES: [&str; 66] = [
+const PIECES: [&str; 76] = [
     "Material",
+    "MaterialSet",
+    "kernel",
+    "Interleaved",
+    "Separable",
+    "taps",
+    "rotated",
+    "rejection",
+    "by_normal",
+    "rejected",
+    "true",
     "(",
     ")",
     "[",
@@ -172,6 +182,9 @@ proptest! {
     fn random_pieces(material in pieces(), profile in pieces()) {
         check(&load_memory([("skin.ron", &format!("Material({material})")), ("jade.ron", &material)]));
         check(&load_memory([("skin.ron", "Material(profile: \"p\")"), ("profiles/p.ron", &profile)]));
+        for set in [format!("MaterialSet({material})"), format!("MaterialSet(kernel: {material})")] {
+            check(&load_memory([("set.ron", &set), ("profiles/p.ron", &set)]));
+        }
     }
 
     #[test]

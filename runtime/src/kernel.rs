@@ -2,7 +2,9 @@
 
 use std::borrow::Cow;
 
-/// A kernel module and the parameter table of its materials.
+use crate::kernel_kind::KernelKind;
+
+/// A kernel module with the tables of its materials.
 ///
 /// Generated Rust makes one with [`from_generated`](Self::from_generated); whoever compiles materials at run time makes
 /// one with [`new`](Self::new) from the compiler's output.
@@ -12,10 +14,62 @@ pub struct SubsurfaceKernel {
     material_table: Cow<'static, [u8]>,
     material_names: Vec<Cow<'static, str>>,
     profile_tables: Cow<'static, [u8]>,
+    profile_curves: Cow<'static, [u8]>,
+    curve_size: [u32; 2],
+    kind: KernelKind,
+    taps: u32,
+}
+
+/// What a compiler puts out for one set of materials.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct KernelParts {
+    /// The module's text.
+    pub wgsl: String,
+    /// Bytes of the parameter table: one row per material, by number.
+    pub material_table: Vec<u8>,
+    /// Names by material number.
+    pub material_names: Vec<String>,
+    /// Bytes of the tables of tabulated profiles; empty where no material has one.
+    pub profile_tables: Vec<u8>,
+    /// Texels of the profiles' curves: four f32 each, rows from the top.
+    pub profile_curves: Vec<u8>,
+    /// Width and height of the curves, texels.
+    pub curve_size: [u32; 2],
+    /// The estimator that the module holds.
+    pub kind: KernelKind,
+    /// Taps per pixel unless a [`SubsurfaceView`](crate::SubsurfaceView) says otherwise.
+    pub taps: u32,
+}
+
+/// [`KernelParts`] that stand in the program.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct GeneratedKernel {
+    /// The module's text.
+    pub wgsl: &'static str,
+    /// Bytes of the parameter table: one row per material, by number.
+    pub material_table: &'static [u8],
+    /// Names by material number.
+    pub material_names: &'static [&'static str],
+    /// Bytes of the tables of tabulated profiles; empty where no material has one.
+    pub profile_tables: &'static [u8],
+    /// Texels of the profiles' curves: four f32 each, rows from the top.
+    pub profile_curves: &'static [u8],
+    /// Width and height of the curves, texels.
+    pub curve_size: [u32; 2],
+    /// The estimator that the module holds.
+    pub kind: KernelKind,
+    /// Taps per pixel unless a [`SubsurfaceView`](crate::SubsurfaceView) says otherwise.
+    pub taps: u32,
 }
 
 /// How the compiler's WGSL declares the buffer of the profile tables. Comments of ours do not spell it.
 const PROFILE_TABLES: &str = "@group(0) @binding(1) var<storage, read> profile_tables:";
+
+/// How the compiler's WGSL declares what the compute path writes to.
+const DIFFUSED_TEXTURE: &str = "alias DiffusedTexture = texture_storage_2d<";
+
+/// Bytes of a texel of the curves.
+const CURVE_TEXEL: usize = 16;
 
 /// Parts that do not make a kernel.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -43,54 +97,93 @@ pub enum KernelError {
         /// Bytes of the profile tables: 0 where the WGSL reads some.
         bytes: usize,
     },
+    /// The curves are not a texture of that size.
+    #[error(
+        "curves of {width}×{height} texels take 16 bytes each, not {bytes} in all: give curves and size of one compilation"
+    )]
+    ProfileCurves {
+        /// Width, texels.
+        width: u32,
+        /// Height, texels.
+        height: u32,
+        /// Bytes of the curves.
+        bytes: usize,
+    },
 }
 
 impl SubsurfaceKernel {
-    /// A kernel from a compiler's output: the WGSL, the bytes of the parameter table, the material names by number, and
-    /// the bytes of the tables of tabulated profiles, which are empty where no material has one.
+    /// A kernel from a compiler's output.
     ///
     /// # Errors
     /// No material, a table that does not hold one row for each, no profile tables for WGSL that reads some, or some
-    /// for WGSL that reads none.
-    pub fn new(
-        wgsl: String,
-        material_table: Vec<u8>,
-        material_names: Vec<String>,
-        profile_tables: Vec<u8>,
-    ) -> Result<Self, KernelError> {
-        let (bytes, materials) = (material_table.len(), material_names.len());
+    /// for WGSL that reads none, or curves that are not of their size.
+    pub fn new(parts: KernelParts) -> Result<Self, KernelError> {
+        let (bytes, materials) = (parts.material_table.len(), parts.material_names.len());
         if materials == 0 {
             return Err(KernelError::NoMaterials);
         }
-        // Rows of a storage buffer hold vec3f, hence come in multiples of 16 bytes.
+        // Rows hold vec3f, hence come in multiples of 16 bytes.
         if bytes == 0 || bytes % (16 * materials) != 0 {
             return Err(KernelError::Table { bytes, materials });
         }
-        if wgsl.contains(PROFILE_TABLES) == profile_tables.is_empty() {
-            return Err(KernelError::ProfileTables { bytes: profile_tables.len() });
+        if parts.wgsl.contains(PROFILE_TABLES) == parts.profile_tables.is_empty() {
+            return Err(KernelError::ProfileTables { bytes: parts.profile_tables.len() });
         }
-        let material_names = material_names.into_iter().map(Cow::Owned).collect();
+        let [width, height] = parts.curve_size;
+        let texels = (width as usize).checked_mul(height as usize);
+        let expected = texels.and_then(|texels| texels.checked_mul(CURVE_TEXEL));
+        if expected != Some(parts.profile_curves.len()) || parts.profile_curves.is_empty() {
+            return Err(KernelError::ProfileCurves { width, height, bytes: parts.profile_curves.len() });
+        }
         Ok(Self {
-            wgsl: Cow::Owned(wgsl),
-            material_table: Cow::Owned(material_table),
-            material_names,
-            profile_tables: Cow::Owned(profile_tables),
+            wgsl: Cow::Owned(parts.wgsl),
+            material_table: Cow::Owned(parts.material_table),
+            material_names: parts.material_names.into_iter().map(Cow::Owned).collect(),
+            profile_tables: Cow::Owned(parts.profile_tables),
+            profile_curves: Cow::Owned(parts.profile_curves),
+            curve_size: parts.curve_size,
+            kind: parts.kind,
+            taps: parts.taps,
         })
     }
 
-    /// A kernel from generated Rust, whose parts fit by construction: those of [`new`](Self::new).
-    pub fn from_generated(
-        wgsl: &'static str,
-        material_table: &'static [u8],
-        material_names: &'static [&'static str],
-        profile_tables: &'static [u8],
-    ) -> Self {
+    /// A kernel from generated Rust, whose parts fit by construction.
+    pub fn from_generated(parts: GeneratedKernel) -> Self {
         Self {
-            wgsl: Cow::Borrowed(wgsl),
-            material_table: Cow::Borrowed(material_table),
-            material_names: material_names.iter().map(|name| Cow::Borrowed(*name)).collect(),
-            profile_tables: Cow::Borrowed(profile_tables),
+            wgsl: Cow::Borrowed(parts.wgsl),
+            material_table: Cow::Borrowed(parts.material_table),
+            material_names: parts.material_names.iter().map(|name| Cow::Borrowed(*name)).collect(),
+            profile_tables: Cow::Borrowed(parts.profile_tables),
+            profile_curves: Cow::Borrowed(parts.profile_curves),
+            curve_size: parts.curve_size,
+            kind: parts.kind,
+            taps: parts.taps,
         }
+    }
+
+    /// The estimator that the module holds.
+    pub fn kind(&self) -> KernelKind {
+        self.kind
+    }
+
+    /// Taps per pixel unless a [`SubsurfaceView`](crate::SubsurfaceView) says otherwise.
+    pub fn taps(&self) -> u32 {
+        self.taps
+    }
+
+    /// Format that the compute path writes, as the compiler was told.
+    pub fn compute_format(&self) -> Option<wgpu::TextureFormat> {
+        let (_, rest) = self.wgsl.split_once(DIFFUSED_TEXTURE)?;
+        match rest.split_once(',')?.0 {
+            "rgba16float" => Some(wgpu::TextureFormat::Rgba16Float),
+            "rgba32float" => Some(wgpu::TextureFormat::Rgba32Float),
+            _ => None,
+        }
+    }
+
+    /// Texels of the profiles' curves, as bytes, and their size.
+    pub fn profile_curves(&self) -> (&[u8], [u32; 2]) {
+        (&self.profile_curves, self.curve_size)
     }
 
     /// The module's text.

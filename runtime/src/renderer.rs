@@ -27,10 +27,10 @@ pub struct Frame<'a> {
     pub bounds: Bounds,
     /// Millimetres that a world unit has: 1000 for metres. There is no default: a wrong scale looks right too often.
     pub millimetres_per_world_unit: f32,
-    /// Taps per pixel of the subsurface pass; 0 turns scattering off.
-    pub taps: u32,
-    /// Seed of the subsurface pass.
-    pub seed: u32,
+    /// Taps per pixel of the subsurface pass in place of the kernel's own number; 0 turns scattering off.
+    pub taps: Option<u32>,
+    /// Moves the pattern of the subsurface pass's taps on; 0 for a still picture.
+    pub frame_index: u32,
     /// Exposure, tone mapping and background.
     pub composite: CompositeSettings,
 }
@@ -39,9 +39,9 @@ impl Frame<'_> {
     /// How the subsurface pass sees this frame at a size of `size`.
     pub fn subsurface_view(&self, size: Extent) -> SubsurfaceView {
         let projection = self.camera.projection(size.width as f32 / size.height as f32, &self.bounds);
-        SubsurfaceView::from_projection(projection, size.height, self.millimetres_per_world_unit)
-            .with_taps(self.taps)
-            .with_seed(self.seed)
+        let view = SubsurfaceView::from_projection(projection, size.height, self.millimetres_per_world_unit)
+            .with_frame_index(self.frame_index);
+        self.taps.map_or(view, |taps| view.with_taps(taps))
     }
 }
 
@@ -98,6 +98,7 @@ impl Renderer {
             surface: &targets.surface.view,
             depth: &targets.depth,
             depth_stencil: Some(&targets.depth_stencil.view),
+            mean_free_path_scale: None,
         };
         self.subsurface.resize(device, size, &inputs)?;
         if let Some(Target { view: diffused, .. }) = self.subsurface.output() {

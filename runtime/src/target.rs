@@ -49,12 +49,31 @@ impl Target {
         format: wgpu::TextureFormat,
         label: &str,
     ) -> Result<Self, SizeError> {
+        Self::filled_by(device, size, format, wgpu::TextureUsages::RENDER_ATTACHMENT, label)
+    }
+
+    /// The same, filled as `filled` says.
+    pub(crate) fn filled_by(
+        device: &wgpu::Device,
+        size: Extent,
+        format: wgpu::TextureFormat,
+        filled: wgpu::TextureUsages,
+        label: &str,
+    ) -> Result<Self, SizeError> {
         check_size(device, size)?;
-        let texture =
-            device.create_texture(&descriptor(size, format, wgpu::TextureUsages::RENDER_ATTACHMENT, label));
+        let texture = device.create_texture(&descriptor(size, format, filled, label));
         let view =
             texture.create_view(&wgpu::TextureViewDescriptor { label: Some(label), ..Default::default() });
         Ok(Self { texture, view })
+    }
+
+    /// A texture of one pixel that a queue fills.
+    pub(crate) fn single_pixel(device: &wgpu::Device, format: wgpu::TextureFormat, label: &str) -> Self {
+        let size = Extent::new(1, 1);
+        let texture = device.create_texture(&descriptor(size, format, wgpu::TextureUsages::COPY_DST, label));
+        let view =
+            texture.create_view(&wgpu::TextureViewDescriptor { label: Some(label), ..Default::default() });
+        Self { texture, view }
     }
 
     /// A 2-D texture of an uncompressed colour format that holds `texels`, rows from the top without padding; to be

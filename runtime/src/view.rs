@@ -10,21 +10,17 @@ use crate::bindings::kernel;
 /// // A projection as glam, glTF and Bevy make it, 720 pixels high, world units of a metre.
 /// let projection = [[1.3, 0.0, 0.0, 0.0], [0.0, 2.4, 0.0, 0.0], [0.0, 0.0, 0.0, -1.0], [0.0, 0.0, 0.1, 0.0]];
 /// let view = SubsurfaceView::from_projection(projection, 720, 1000.0).with_taps(24);
-/// assert_eq!(view.taps(), 24);
+/// assert_eq!(view.taps(), Some(24));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SubsurfaceView {
     distance_from_depth: [f32; 4],
     millimetres_per_pixel: [f32; 2],
-    taps: u32,
-    seed: u32,
+    taps: Option<u32>,
+    frame_index: u32,
 }
 
 impl SubsurfaceView {
-    /// Taps per pixel unless told otherwise. More taps cost time and lessen grain: the test of the step edge prints the
-    /// noise of each count.
-    pub const DEFAULT_TAPS: u32 = 32;
-
     /// A view through `projection` (columns; clip space from view space, y up, depth 0 to 1), `height_pixels` high.
     ///
     /// Any perspective or orthographic projection will do: left- or right-handed, reversed, infinite. An orthographic
@@ -44,8 +40,8 @@ impl SubsurfaceView {
         Self {
             distance_from_depth: [-to_millimetres * w_offset, to_millimetres * z_offset, w_from_z, -z_from_z],
             millimetres_per_pixel,
-            taps: Self::DEFAULT_TAPS,
-            seed: 0,
+            taps: None,
+            frame_index: 0,
         }
     }
 
@@ -54,8 +50,8 @@ impl SubsurfaceView {
         Self {
             distance_from_depth: [1.0, 0.0, 0.0, 1.0],
             millimetres_per_pixel: [millimetres_per_pixel, 0.0],
-            taps: Self::DEFAULT_TAPS,
-            seed: 0,
+            taps: None,
+            frame_index: 0,
         }
     }
 
@@ -65,22 +61,24 @@ impl SubsurfaceView {
         Self { millimetres_per_pixel: [0.0, per_distance], ..Self::orthographic_distances(0.0) }
     }
 
-    /// Taps per pixel; 0 turns scattering off.
+    /// Taps per pixel, in place of the kernel's own number; 0 turns scattering off. A kernel that sums every pixel knows
+    /// only off and on.
     #[must_use]
     pub fn with_taps(mut self, taps: u32) -> Self {
-        self.taps = taps;
+        self.taps = Some(taps);
         self
     }
 
-    /// Shifts the pattern of directions; the same seed gives the same picture.
+    /// Moves the pattern of taps on, for those who accumulate frames. Without it, and for every number again, the picture
+    /// is the same and still.
     #[must_use]
-    pub fn with_seed(mut self, seed: u32) -> Self {
-        self.seed = seed;
+    pub fn with_frame_index(mut self, frame_index: u32) -> Self {
+        self.frame_index = frame_index;
         self
     }
 
-    /// Taps per pixel.
-    pub fn taps(&self) -> u32 {
+    /// Taps per pixel, if they are not the kernel's own number.
+    pub fn taps(&self) -> Option<u32> {
         self.taps
     }
 
@@ -99,12 +97,15 @@ impl SubsurfaceView {
         self.distance_from_depth
     }
 
-    pub(crate) fn uniform(&self) -> kernel::SubsurfaceView {
+    /// The view as the shaders take it, for a kernel of `taps` taps.
+    pub(crate) fn uniform(&self, taps: u32, debug_view: u32) -> kernel::SubsurfaceView {
         kernel::SubsurfaceView {
             distance_from_depth: self.distance_from_depth,
             millimetres_per_pixel: self.millimetres_per_pixel,
-            taps: self.taps,
-            seed: self.seed,
+            taps: self.taps.unwrap_or(taps),
+            frame_index: self.frame_index,
+            debug_view,
+            ..bytemuck::Zeroable::zeroed()
         }
     }
 }

@@ -4,9 +4,9 @@ mod gpu;
 
 use gpu::{Gpu, compile, kernel};
 use subsurface_runtime::{
-    Bounds, Camera, CompositeSettings, DirectionalLight, Extent, Frame, GBuffer, Geometry, Object, Renderer,
-    SubsurfaceInputs, SubsurfaceKernel, SubsurfacePass, SubsurfaceView, SurfaceDescriptor, TexturePixels,
-    Vertex, wgpu,
+    Bounds, Camera, CompositeSettings, DirectionalLight, Extent, Frame, GBuffer, Geometry, Object, Path,
+    Renderer, SubsurfaceInputs, SubsurfaceKernel, SubsurfacePass, SubsurfaceView, SurfaceDescriptor,
+    TexturePixels, Vertex, wgpu,
 };
 
 const SIZE: Extent = Extent::new(96, 64);
@@ -76,8 +76,8 @@ impl Scene {
             transmission: 1.0,
             bounds: Bounds { centre: [0.0; 3], radius: 0.15 },
             millimetres_per_world_unit: 1000.0,
-            taps,
-            seed: 0,
+            taps: Some(taps),
+            frame_index: 0,
             composite: CompositeSettings { tone_map: false, ..Default::default() },
         };
         let output =
@@ -132,12 +132,15 @@ fn the_stencil_changes_what_is_shaded_and_not_the_picture() {
     let view = SubsurfaceView::from_projection(projection, SIZE.height, 1000.0).with_taps(16);
     let run = |stencil: Option<wgpu::TextureFormat>| {
         gpu.validated(|| {
-            let mut pass = SubsurfacePass::new(&gpu.device, &scene.kernel, FORMAT, stencil);
+            let path = Path::Fragment;
+            let mut pass = SubsurfacePass::with_path(&gpu.device, &scene.kernel, FORMAT, stencil, path)
+                .expect("every device has fragment shaders");
             let inputs = SubsurfaceInputs {
                 irradiance: &targets.irradiance.view,
                 surface: &targets.surface.view,
                 depth: &targets.depth,
                 depth_stencil: stencil.map(|_| &targets.depth_stencil.view),
+                mean_free_path_scale: None,
             };
             pass.resize(&gpu.device, SIZE, &inputs).expect("a small frame");
             pass.prepare(&gpu.queue, &view);
@@ -197,8 +200,8 @@ fn lit_quad(gpu: &Gpu, texel: [u8; 4], towards_light: [f32; 3], material: &Subsu
         transmission: 1.0,
         bounds: Bounds { centre: [0.0; 3], radius: 0.15 },
         millimetres_per_world_unit: 1000.0,
-        taps: 8,
-        seed: 0,
+        taps: Some(8),
+        frame_index: 0,
         composite: CompositeSettings { tone_map: true, ..Default::default() },
     };
     let output = subsurface_runtime::Target::new(&gpu.device, SIZE, FORMAT, "test picture").expect("small");
@@ -278,6 +281,7 @@ fn a_stencil_is_given_if_and_only_if_the_pass_was_made_for_one() {
         surface: &targets.surface.view,
         depth: &targets.depth,
         depth_stencil: stencil.then_some(&targets.depth_stencil.view),
+        mean_free_path_scale: None,
     };
     let made_for = |stencil| SubsurfacePass::new(&gpu.device, &scene.kernel, FORMAT, stencil);
     let error = made_for(None).resize(&gpu.device, SIZE, &inputs(true)).expect_err("unexpected stencil");

@@ -7,8 +7,6 @@ mod gpu;
 use gpu::{Gpu, exponentials_alone_file, model, stems, table_files};
 use subsurface_codegen::{Compiler, Pass};
 use subsurface_profile::{Channel, Medium};
-use subsurface_runtime::wgpu;
-use wgpu::util::DeviceExt as _;
 
 const TWINS: Pass = Pass { name: "twins", text: include_str!("twins.wgsl"), entry_points: &["twins"] };
 
@@ -49,54 +47,7 @@ fn ask(gpu: &Gpu, lengths_mm: f64, queries: &[Query]) -> Vec<Answer> {
         .with_pass(TWINS)
         .compile()
         .unwrap_or_else(|r| panic!("{r}"));
-    let device = &gpu.device;
-    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-        label: Some("twins"),
-        source: wgpu::ShaderSource::Wgsl(compilation.wgsl.as_str().into()),
-    });
-    let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-        label: Some("twins"),
-        layout: None,
-        module: &module,
-        entry_point: Some("twins"),
-        compilation_options: Default::default(),
-        cache: None,
-    });
-    let buffer = |contents: &[u8], usage| {
-        device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: Some("twins"), contents, usage })
-    };
-    let storage = wgpu::BufferUsages::STORAGE;
-    let table = buffer(&compilation.material_table, storage);
-    let asked = buffer(bytemuck::cast_slice(queries), storage);
-    let bytes = (queries.len() * size_of::<Answer>()) as u64;
-    let answered = buffer(&vec![0; bytes as usize], storage | wgpu::BufferUsages::COPY_SRC);
-    let readback =
-        buffer(&vec![0; bytes as usize], wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ);
-    let group = |index, buffers: &[&wgpu::Buffer]| {
-        let entries: Vec<_> = (0..)
-            .zip(buffers)
-            .map(|(binding, buffer)| wgpu::BindGroupEntry { binding, resource: buffer.as_entire_binding() })
-            .collect();
-        let layout = pipeline.get_bind_group_layout(index);
-        device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("twins"),
-            layout: &layout,
-            entries: &entries,
-        })
-    };
-    let tables = buffer(&compilation.profile_tables, storage);
-    let (materials, points) = (group(0, &[&table, &tables]), group(1, &[&asked, &answered]));
-    let mut encoder = device.create_command_encoder(&Default::default());
-    {
-        let mut pass = encoder.begin_compute_pass(&Default::default());
-        pass.set_pipeline(&pipeline);
-        pass.set_bind_group(0, &materials, &[]);
-        pass.set_bind_group(1, &points, &[]);
-        pass.dispatch_workgroups((queries.len() as u32).div_ceil(64), 1, 1);
-    }
-    encoder.copy_buffer_to_buffer(&answered, 0, &readback, 0, bytes);
-    gpu.queue.submit([encoder.finish()]);
-    bytemuck::pod_collect_to_vec(&gpu.map(&readback))
+    gpu.evaluate(&compilation, "twins", queries)
 }
 
 const SURFACE_ALBEDOS: [f32; 9] = [0.0, 1e-3, 0.05, 0.2, 0.5, 0.8, 0.95, 0.999, 1.0];

@@ -6,71 +6,52 @@
 // weight per channel. Radii take the centres of equal strata of the CDF (the quantile diverges at u = 1, so strata are
 // centred); directions follow the golden angle from a start that each pixel takes from a fixed pattern.
 
-/// Irradiance above this counts as this: 4096 taps at the largest weight still add up to a finite f32.
-const LARGEST_IRRADIANCE: f32 = 1e30;
-
 /// Largest weight of a tap. A narrow channel's density over the widest one's grows as the ratio of their lengths at
 /// small radii; a ratio of 1e4 and more belongs to materials whose narrow channel does not leave the pixel anyway.
 const LARGEST_WEIGHT: f32 = 1e4;
 
-/// A depth difference above this counts as this: its square and cube stay finite, and every profile is 0 there.
-const LARGEST_DEPTH_DIFFERENCE_MM: f32 = 1e9;
+/// Taps farther than this many pixels count as this far: outside of any target, and exact as i32.
+const LARGEST_TAP_DISTANCE: f32 = 32768.0;
 
-/// A channel whose weights add up to less than this has lost every tap.
-const SMALLEST_WEIGHT: f32 = 1e-20;
+/// cos and sin of the golden angle: a step from tap to tap without a transcendental.
+const GOLDEN_TURN: vec2f = vec2f(-0.73736888, 0.67549029);
 
-/// Irradiance at `pixel` after it has diffused under the surface.
-///
-/// `irradiance` holds the irradiance, `surface` the surface albedo and the material number, `depth` the depth;
-/// `view` says how to read it. A tap counts only if it is inside the target, on the same material and finite; what is
-/// lost is renormalized, so that a constant irradiance stays constant.
-fn gather_importance_sampled(
-    irradiance: texture_2d<f32>,
-    surface: texture_2d<f32>,
-    depth: texture_2d<f32>,
-    view: SubsurfaceView,
-    pixel: vec2i,
-    material: i32,
-    profiles: ChannelProfiles,
-    distance_mm: f32,
-) -> vec3f {
-    let size = vec2i(textureDimensions(irradiance));
-    let millimetres_per_pixel = view.millimetres_per_pixel.x + view.millimetres_per_pixel.y * distance_mm;
-    let sampled = channel_profile(profiles, widest_channel(profiles));
-    let turn = TAU * interleaved_gradient_noise(pixel, view.seed);
-
-    var weighted = vec3f(0.0);
-    var weights = vec3f(0.0);
-    for (var tap = 0u; tap < view.taps; tap += 1u) {
-        let u = (f32(tap) + 0.5) / f32(view.taps);
-        let radius_mm = profile_sample_radius(sampled, u);
-        let angle = turn + GOLDEN_ANGLE * f32(tap);
-        // A radius of thousands of pixels leaves the target anyway; the bound keeps the conversion to i32 defined.
-        let radius_pixels = min(radius_mm / millimetres_per_pixel, 32768.0);
-        let offset = radius_pixels * vec2f(cos(angle), sin(angle));
-        let position = pixel + vec2i(round(offset));
-        if any(position < vec2i(0)) || any(position >= size) {
-            continue;
-        }
-        let tap_surface = textureLoad(surface, position, 0);
-        if material_number(tap_surface.w, MATERIALS_IN_SET) != material {
-            continue;
-        }
-        let tap_distance_mm = distance_from_depth_mm(textureLoad(depth, position, 0).r, view.distance_from_depth);
-        let tap_irradiance = textureLoad(irradiance, position, 0).rgb;
-        if tap_distance_mm == 0.0 || !is_finite_rgb(tap_irradiance) {
-            continue;
-        }
-        let depth_difference_mm = min(abs(tap_distance_mm - distance_mm), LARGEST_DEPTH_DIFFERENCE_MM);
-        let path_mm = sqrt(radius_mm * radius_mm + depth_difference_mm * depth_difference_mm);
-        let ratio = channel_area_pdf(profiles, path_mm) / profile_area_pdf(sampled, radius_mm);
-        let weight = min(ratio, vec3f(LARGEST_WEIGHT));
-        weighted += weight * clamp(tap_irradiance, vec3f(0.0), vec3f(LARGEST_IRRADIANCE));
-        weights += weight;
+/// Light gathered for `point` by `taps` taps.
+fn gather_importance_sampled(point: SurfacePoint, taps: u32, turn: f32) -> Gathered {
+    var direction = vec2f(cos(turn), sin(turn));
+    var gathered = Gathered(vec3f(0.0), vec3f(0.0));
+    for (var tap = 0u; tap < taps; tap += 1u) {
+        let u = (f32(tap) + 0.5) / f32(taps);
+        let quantile = curve_quantile(point.widest.curve, u);
+        gathered = together(gathered, tap_light(point, quantile, direction));
+        direction = turned(direction, GOLDEN_TURN);
     }
+    let share = 1.0 / f32(max(taps, 1u));
+    return Gathered(share * gathered.irradiance, share * gathered.weight);
+}
 
-    // Channels whose every tap was rejected keep the irradiance of the pixel itself.
-    let own = textureLoad(irradiance, pixel, 0).rgb;
-    let kept = select(vec3f(0.0), clamp(own, vec3f(0.0), vec3f(LARGEST_IRRADIANCE)), is_finite_rgb(own));
-    return select(kept, weighted / max(weights, vec3f(SMALLEST_WEIGHT)), weights > vec3f(SMALLEST_WEIGHT));
+/// Light of one tap whose radius was drawn from `quantile`: (radius in mm, dr/du).
+fn tap_light(point: SurfacePoint, quantile: vec2f, direction: vec2f) -> Gathered {
+    let radius_mm = quantile.x;
+    let radius_pixels = min(radius_mm / point.pixel_mm, LARGEST_TAP_DISTANCE);
+    let position = vec2i(round(point.position + radius_pixels * direction));
+    let pixel = input_pixel(position);
+    if !accepts_material(point, pixel.material) {
+        return Gathered(vec3f(0.0), vec3f(0.0));
+    }
+    let depth_mm = depth_difference_mm(point, pixel.distance_mm);
+    let path_mm = sqrt(radius_mm * radius_mm + depth_mm * depth_mm);
+    // 1 / p(r) = 2πr · dr/du.
+    let ratio = channel_area_pdf(point.profiles, path_mm) * (TAU * radius_mm * quantile.y);
+    let normal_share = accepted_by_normal(point.normal, position, pixel.distance_mm, point.span_mm);
+    let weight = min(ratio, vec3f(LARGEST_WEIGHT)) * normal_share;
+    return Gathered(weight * pixel.irradiance, weight);
+}
+
+/// `direction` turned by the angle whose cosine and sine are `turn`.
+fn turned(direction: vec2f, turn: vec2f) -> vec2f {
+    return vec2f(
+        direction.x * turn.x - direction.y * turn.y,
+        direction.x * turn.y + direction.y * turn.x,
+    );
 }

@@ -13,6 +13,14 @@ struct MaterialSurface {
     roughness: f32,
     /// Factor on the light that comes through from the far side, 0 for none.
     transmission_strength: f32,
+    /// First row of the quantile curves of its profile in `profile_curves`.
+    first_curve: u32,
+    /// Number of its curves: one per node of the surface albedo, or one per channel.
+    curve_count: u32,
+    /// First row of the edge curves of its profile; 0 where the kernel reads none.
+    first_edge: u32,
+    /// Distance from an edge, in lengths of the material, at which the edge curves end; 0 where the kernel reads none.
+    edge_reach: f32,
 }
 
 /// A profile model with its coefficients evaluated: what the functions `<model>_area_pdf` and its siblings take.
@@ -21,6 +29,8 @@ struct Profile {
     coefficients: vec4f,
     /// Constants of the model that are not functions of the surface albedo; 0 for models without any.
     shape: vec4f,
+    /// Where its quantile curve is: see `albedo_curve`.
+    curve: vec3f,
 }
 
 /// The profiles of the three channels at one pixel.
@@ -39,29 +49,19 @@ fn channel_area_pdf(profiles: ChannelProfiles, radius_mm: f32) -> vec3f {
     );
 }
 
+/// Fraction of the reflected energy that leaves within `radius_mm`, per channel.
+fn channel_radial_cdf(profiles: ChannelProfiles, radius_mm: f32) -> vec3f {
+    return vec3f(
+        profile_radial_cdf(profiles.red, radius_mm),
+        profile_radial_cdf(profiles.green, radius_mm),
+        profile_radial_cdf(profiles.blue, radius_mm),
+    );
+}
+
 /// Fraction of the diffusely reflected light that would leave beyond `thickness_mm`, per channel, times the surface
 /// albedo: ∫ R(√(r² + t²)) 2πr dr = A (1 − cdf(t)), the light that a slab of thickness t lets through.
 fn channel_transmittance(profiles: ChannelProfiles, surface_albedo: vec3f, thickness_mm: f32) -> vec3f {
-    let inside = vec3f(
-        profile_radial_cdf(profiles.red, thickness_mm),
-        profile_radial_cdf(profiles.green, thickness_mm),
-        profile_radial_cdf(profiles.blue, thickness_mm),
-    );
-    return surface_albedo * (vec3f(1.0) - inside);
-}
-
-/// Quantile by which profiles are compared in width: far enough out to see the tail that needs the radii.
-const WIDTH_QUANTILE: f32 = 0.9;
-
-/// Number of the channel with the widest profile at this pixel: radii are drawn from it.
-fn widest_channel(profiles: ChannelProfiles) -> u32 {
-    let red = profile_sample_radius(profiles.red, WIDTH_QUANTILE);
-    let green = profile_sample_radius(profiles.green, WIDTH_QUANTILE);
-    let blue = profile_sample_radius(profiles.blue, WIDTH_QUANTILE);
-    if red >= green && red >= blue {
-        return 0u;
-    }
-    return select(2u, 1u, green >= blue);
+    return surface_albedo * (vec3f(1.0) - channel_radial_cdf(profiles, thickness_mm));
 }
 
 /// The profile of one channel, by its number.

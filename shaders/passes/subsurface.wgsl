@@ -4,14 +4,13 @@ struct SubsurfaceView {
     distance_from_depth: vec4f,
     /// (x, y): millimetres that one pixel spans = x + y·distance.
     millimetres_per_pixel: vec2f,
-    /// Taps per pixel.
+    /// Taps per pixel: the budget of the largest footprint.
     taps: u32,
-    /// Shifts the pattern of directions. The same seed gives the same picture.
-    seed: u32,
+    /// Moves the pattern of taps on. The same number gives the same picture.
+    frame_index: u32,
+    /// Debug view: one of the `DEBUG_…` constants.
+    debug_view: u32,
 }
-
-/// One row per material of the set, in the order of the material numbers.
-@group(0) @binding(0) var<storage, read> material_table: array<SubsurfaceMaterial>;
 
 @group(1) @binding(0) var<uniform> subsurface_view: SubsurfaceView;
 /// Diffuse irradiance, red, green, blue; before the surface albedo.
@@ -20,47 +19,64 @@ struct SubsurfaceView {
 @group(1) @binding(2) var surface_texture: texture_2d<f32>;
 /// Depth in whatever form `subsurface_view.distance_from_depth` turns into millimetres.
 @group(1) @binding(3) var depth_texture: texture_2d<f32>;
+/// Factor on the mean free path, in its first component; one pixel of 1 where there is none.
+@group(1) @binding(4) var mean_free_path_scale_texture: texture_2d<f32>;
 
-/// One triangle that covers the target.
-@vertex
-fn subsurface_vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
-    return covering_triangle(index);
+/// Whether the target has a pixel at `position`.
+fn is_inside(position: vec2i) -> bool {
+    return all(position >= vec2i(0)) && all(position < vec2i(textureDimensions(irradiance_texture)));
 }
 
-/// Diffused irradiance of translucent pixels; every other pixel keeps its irradiance.
-@fragment
-fn subsurface_fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
-    let pixel = vec2i(position.xy);
-    let own = textureLoad(irradiance_texture, pixel, 0);
-    let surface = textureLoad(surface_texture, pixel, 0);
-    let material = material_number(surface.w, MATERIALS_IN_SET);
-    let depth = textureLoad(depth_texture, pixel, 0).r;
-    let distance_mm = distance_from_depth_mm(depth, subsurface_view.distance_from_depth);
-    if material == NO_MATERIAL || distance_mm == 0.0 {
-        return own;
+/// What a tap sees at `position`.
+fn input_pixel(position: vec2i) -> InputPixel {
+    let surface = input_surface(position);
+    if surface.material == NO_MATERIAL {
+        return InputPixel(vec3f(0.0), 0.0, NO_MATERIAL);
     }
-    let row = material_table[material];
-    // A texel that is no albedo falls back on the material's own.
-    let surface_albedo = select(
-        row.surface.surface_albedo,
-        clamp(surface.rgb, vec3f(0.0), vec3f(1.0)),
-        is_finite_rgb(surface.rgb),
-    );
-    let diffused = gather_importance_sampled(
-        irradiance_texture,
-        surface_texture,
-        depth_texture,
-        subsurface_view,
-        pixel,
-        material,
-        material_profiles(row, surface_albedo),
-        distance_mm,
-    );
-    return vec4f(diffused, own.a);
+    let irradiance = textureLoad(irradiance_texture, position, 0).rgb;
+    let material = select(NO_MATERIAL, surface.material, is_finite_rgb(irradiance));
+    return InputPixel(finite_irradiance(irradiance), surface.distance_mm, material);
 }
 
-/// Irradiance as it stands: for the pixels that the stencil leaves out.
-@fragment
-fn passthrough_fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
-    return textureLoad(irradiance_texture, vec2i(position.xy), 0);
+/// The surface at `position`; none outside of the target.
+fn input_surface(position: vec2i) -> InputSurface {
+    if !is_inside(position) {
+        return InputSurface(0.0, NO_MATERIAL);
+    }
+    let depth = textureLoad(depth_texture, position, 0).r;
+    let distance_mm = distance_from_depth_mm(depth, subsurface_view.distance_from_depth);
+    return surface_of_texel(textureLoad(surface_texture, position, 0).w, distance_mm);
+}
+
+/// Texel `step` of a row of the curves.
+fn curve_texel(row: i32, step: i32) -> vec4f {
+    return textureLoad(profile_curves, curve_place(row, step), 0);
+}
+
+/// Factor on the mean free path at `position`: 1 where the texture has no finite number.
+fn mean_free_path_scale_at(position: vec2i) -> f32 {
+    let last = vec2i(textureDimensions(mean_free_path_scale_texture)) - 1;
+    let scale = textureLoad(mean_free_path_scale_texture, min(position, last), 0).r;
+    return select(1.0, scale, is_finite(scale));
+}
+
+/// The point of `surface`, which the pixel at `position` shows.
+fn surface_point_at(position: vec2i, surface: InputSurface) -> SurfacePoint {
+    let row = material_table[surface.material];
+    return surface_point(
+        subsurface_view,
+        vec2f(position),
+        surface.material,
+        row,
+        surface.distance_mm,
+        texel_surface_albedo(textureLoad(surface_texture, position, 0), row.surface),
+        mean_free_path_scale_at(position),
+    );
+}
+
+/// The pixel at `position`, which shows `surface` and whose texel of the irradiance is `texel`.
+fn receiver_at(position: vec2i, surface: InputSurface, texel: vec4f) -> Receiver {
+    let span = span_mm(subsurface_view, surface.distance_mm);
+    let normal = surface_normal(position, surface.distance_mm, span);
+    return Receiver(position, surface, span, normal, finite_irradiance(texel.rgb));
 }

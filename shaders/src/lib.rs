@@ -34,6 +34,7 @@ pub const LIBRARY: &[Module] = modules![
     "lib/low_discrepancy",
     "lib/numeric_limits",
     "lib/shadow",
+    "lib/shared_exponent",
     "lib/single_scattering_albedo",
     "lib/specular",
     "lib/tone",
@@ -53,9 +54,42 @@ pub const PROFILES: &[Module] = modules![
 ];
 
 /// What a profile is plugged into.
-pub const KERNELS: &[Module] =
-    modules!["kernels/importance_sampled", "kernels/material", "kernels/translucent_pixel"];
+pub const KERNELS: &[Module] = modules![
+    "kernels/block",
+    "kernels/dense",
+    "kernels/far_field",
+    "kernels/importance_sampled",
+    "kernels/input_pixel",
+    "kernels/interleaved",
+    "kernels/material",
+    "kernels/near_field",
+    "kernels/packed_pixel",
+    "kernels/profile_curve",
+    "kernels/rejection",
+    "kernels/separable",
+    "kernels/surface_point",
+    "kernels/translucent_pixel",
+];
 
 /// Passes with their bindings and entry points.
-pub const PASSES: &[Module] =
-    modules!["passes/composite", "passes/distance", "passes/gbuffer", "passes/shadow", "passes/subsurface"];
+///
+/// A kernel has two, `passes/<kernel>` and `passes/<kernel>_compute`, which are linked with the parts of the subsurface
+/// pass that all kernels share: those of two kernels bear the same names.
+pub const PASSES: &[Module] = modules![
+    "passes/composite",
+    "passes/dense",
+    "passes/dense_compute",
+    "passes/distance",
+    "passes/gbuffer",
+    "passes/importance_sampled",
+    "passes/importance_sampled_compute",
+    "passes/interleaved",
+    "passes/interleaved_compute",
+    "passes/separable",
+    "passes/separable_compute",
+    "passes/shadow",
+    "passes/subsurface",
+    "passes/subsurface_compute",
+    "passes/subsurface_debug",
+    "passes/subsurface_fragment",
+];

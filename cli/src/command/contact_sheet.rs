@@ -1,9 +1,10 @@
 //! `subsurface contact-sheet`.
 
+use super::kernel::KernelArguments;
 use super::material_set;
 use super::render::{DEFAULT_MATERIAL, PictureFile};
 use super::view::{MeshArguments, load_scene};
-use crate::draw::{DEFAULT_TAPS, Frame, LARGEST_TAPS, Studio};
+use crate::draw::{Frame, Shown, Studio};
 use crate::failure::Failure;
 use crate::picture::contact_sheet::{Tile, compose};
 use crate::picture::{file, write_png};
@@ -12,13 +13,14 @@ use crate::say;
 use crate::scene::camera::{Camera, DEFAULT_FOV_Y_DEGREES, Light, Size};
 use clap::{Args, value_parser};
 use std::path::{Path, PathBuf};
+use subsurface_codegen::Compiler;
 
 /// Arguments of `subsurface contact-sheet`.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
   subsurface contact-sheet --out sheet.png
-  subsurface contact-sheet --mesh head.glb --material skin --size 640x800 --taps 33 --out sheet.png")]
+  subsurface contact-sheet --mesh head.glb --material skin --size 640x800 --kernel interleaved:8 --out sheet.png")]
 pub struct ContactSheetArguments {
     /// Directory of materials: one .ron file each, profiles in DIR/profiles.
     #[arg(long, value_name = "DIR", default_value = material_set::DEFAULT_DIRECTORY)]
@@ -32,9 +34,9 @@ pub struct ContactSheetArguments {
     /// Size of each tile in pixels.
     #[arg(long, value_name = "WxH", default_value = "480x600")]
     pub size: Size,
-    /// Samples per pixel of the subsurface pass.
-    #[arg(long, value_name = "N", default_value_t = DEFAULT_TAPS, value_parser = value_parser!(u32).range(1..=i64::from(LARGEST_TAPS)))]
-    pub taps: u32,
+    /// Which kernel diffuses.
+    #[command(flatten)]
+    pub kernel: KernelArguments,
     /// Pixels drawn per pixel of the sheet, along each side: 2 or more smooth the silhouettes.
     #[arg(long, value_name = "N", default_value_t = 2, value_parser = value_parser!(u32).range(1..=8))]
     pub supersample: u32,
@@ -68,9 +70,10 @@ pub fn run(arguments: &ContactSheetArguments) -> Result<(), Failure> {
     let original = material_set::compile(&arguments.materials)?;
     material_set::number(&original, &arguments.material)?;
     // One set, hence one kernel module, holds all variants.
-    let materials = material_set::compile_files(with_variants(&original.files_read, arguments)?)?;
+    let files = with_variants(&original.files_read, arguments)?;
+    let materials = arguments.kernel.compile(&Compiler::from_memory(files))?;
     // Without an adapter, there is no point in sculpting.
-    let mut studio = Studio::open(&materials)?;
+    let mut studio = Studio::open(&materials, arguments.kernel.path())?;
     say!("{}", studio.description());
     let scene = load_scene(&arguments.mesh)?;
     let camera = Camera::framing(&scene, arguments.size.aspect(), DEFAULT_FOV_Y_DEGREES);
@@ -85,8 +88,7 @@ pub fn run(arguments: &ContactSheetArguments) -> Result<(), Failure> {
             camera,
             lights: &Light::DEFAULT,
             size: arguments.size,
-            taps: arguments.taps,
-            subsurface: profile.is_some(),
+            shown: if profile.is_some() { Shown::Subsurface } else { Shown::Surface },
             wants_aovs: false,
             wants_timings: true,
             supersampling: arguments.supersample,
@@ -102,7 +104,7 @@ pub fn run(arguments: &ContactSheetArguments) -> Result<(), Failure> {
         progress.inc(1);
     }
     progress.finish_and_clear();
-    let title = format!("{} / {} taps", arguments.material, arguments.taps);
+    let title = format!("{} / {}", arguments.material, materials.kernel);
     if let Some(sheet) = compose(&title, &tiles, COLUMNS) {
         write_png(&arguments.out, &sheet)?;
         say!("{}", arguments.out.display());

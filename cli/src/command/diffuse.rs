@@ -1,22 +1,27 @@
 //! `subsurface diffuse`.
 
+use super::kernel::KernelArguments;
 use super::{material_set, number};
-use crate::draw::{self, Buffers, DEFAULT_TAPS, LARGEST_TAPS, PixelScale};
+use crate::draw::{self, Buffers, PixelScale};
 use crate::failure::Failure;
 use crate::picture::exr::{self, Channels};
 use crate::picture::{PictureError, file};
 use crate::progress::Spinner;
 use crate::say;
 use crate::scene::camera::Size;
-use clap::{Args, value_parser};
+use clap::Args;
 use std::path::{Path, PathBuf};
+use subsurface_codegen::OutputFormat;
 
 /// Arguments of `subsurface diffuse`.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
   subsurface diffuse --materials materials --material skin --input in.exr --out out.exr --mm-per-pixel 0.2
-  subsurface diffuse --material marble --input in.exr --out out.exr --fov-y-degrees 24 --taps 64 --seed 7")]
+  subsurface diffuse --material marble --input in.exr --out out.exr --fov-y-degrees 24 --kernel importance-sampled:64
+  subsurface diffuse --material skin --input in.exr --out out.exr --mm-per-pixel 0.2 --kernel dense
+  subsurface diffuse --material skin --input in.exr --out out.exr --mm-per-pixel 0.2 \\
+      --mean-free-path-scale scale.exr")]
 pub struct DiffuseArguments {
     /// Directory of materials: one .ron file each, profiles in DIR/profiles.
     #[arg(long, value_name = "DIR", default_value = material_set::DEFAULT_DIRECTORY)]
@@ -33,12 +38,16 @@ pub struct DiffuseArguments {
     /// How large a pixel is.
     #[command(flatten)]
     pub scale: ScaleArguments,
-    /// Samples per pixel.
-    #[arg(long, value_name = "N", default_value_t = DEFAULT_TAPS, value_parser = value_parser!(u32).range(1..=i64::from(LARGEST_TAPS)))]
-    pub taps: u32,
-    /// Seed of the samples' rotation: another seed gives other noise.
-    #[arg(long, value_name = "S", default_value_t = 0)]
-    pub seed: u32,
+    /// Factor on the mean free path per pixel: the channel Y, or R if there is none, of a file as large as the buffers.
+    #[arg(long, value_name = "FILE.exr")]
+    pub mean_free_path_scale: Option<PathBuf>,
+    /// Which kernel diffuses.
+    #[command(flatten)]
+    pub kernel: KernelArguments,
+    /// Number of the frame in a sequence that is averaged over time: another frame gives other noise. 0 is a still
+    /// picture.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub frame_index: u32,
 }
 
 /// How large a pixel is: exactly one of the two.
@@ -70,12 +79,16 @@ impl ScaleArguments {
 pub fn run(arguments: &DiffuseArguments) -> Result<(), Failure> {
     file::folder_of(&arguments.out)?;
     let scale = arguments.scale.scale()?;
-    let materials = material_set::compile(&arguments.materials)?;
+    let compiler = material_set::compiler(&arguments.materials)?.output_format(OutputFormat::Rgba32Float);
+    let materials = arguments.kernel.compile(&compiler)?;
     let material = material_set::number(&materials, &arguments.material)?;
-    let buffers = read(&arguments.input, material, materials.set.materials.len())?;
+    let mut buffers = read(&arguments.input, material, materials.set.materials.len())?;
+    if let Some(path) = &arguments.mean_free_path_scale {
+        buffers.mean_free_path_scale = Some(read_scale(path, buffers.size)?);
+    }
     let picture = {
         let _spinner = Spinner::new("diffusing");
-        draw::diffuse(&buffers, &materials, scale, arguments.taps, arguments.seed)?
+        draw::diffuse(&buffers, &materials, scale, arguments.kernel.path(), arguments.frame_index)?
     };
     exr::write_exr(&arguments.out, &picture)?;
     say!("{}", arguments.out.display());
@@ -118,7 +131,18 @@ pub fn read(path: &Path, material: u32, material_count: usize) -> Result<Buffers
         }
         material.push(if known { number as u32 } else { 0 });
     }
-    Ok(Buffers { size, irradiance, depth_mm, surface_albedo, material })
+    Ok(Buffers { size, irradiance, depth_mm, surface_albedo, material, mean_free_path_scale: None })
+}
+
+/// Reads and checks factors on the mean free path.
+fn read_scale(path: &Path, size: Size) -> Result<Vec<f32>, PictureError> {
+    let channels = Channels::read(path)?;
+    let name = if channels.has("Y") { "Y" } else { "R" };
+    let scale = channels.samples(name, size)?;
+    let check = Checker { path, size };
+    let wrong = |factor: &f32| (!(factor.is_finite() && *factor >= 0.0)).then(|| format!("{factor}"));
+    check.every(name, &scale, wrong)?;
+    Ok(scale)
 }
 
 /// Names the pixel that is wrong.

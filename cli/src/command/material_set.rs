@@ -2,7 +2,8 @@
 
 use crate::failure::Failure;
 use crate::progress::Spinner;
-use std::path::{Path, PathBuf};
+use crate::suggestion::suggest;
+use std::path::Path;
 use subsurface_codegen::{Compilation, Compiler, Report};
 
 /// The directory when none is given.
@@ -10,19 +11,20 @@ pub(super) const DEFAULT_DIRECTORY: &str = "materials";
 
 /// Compiles the set in `directory`; prints warnings.
 pub(super) fn compile(directory: &Path) -> Result<Compilation, Failure> {
-    let directory = existing(directory)?;
+    let compiler = compiler(directory)?;
     let spinner = Spinner::new(format!("compiling {}", directory.display()));
-    let compilation = Compiler::new(directory).compile();
+    let compilation = compiler.compile();
     drop(spinner);
     finish(compilation)
 }
 
-/// Compiles files in memory, with paths relative to the materials directory; prints warnings.
-pub(super) fn compile_files(files: Vec<(PathBuf, Vec<u8>)>) -> Result<Compilation, Failure> {
-    finish(Compiler::from_memory(files).compile())
+/// The compiler of the set in `directory`.
+pub(super) fn compiler(directory: &Path) -> Result<Compiler, Failure> {
+    Ok(Compiler::new(existing(directory)?))
 }
 
-fn finish(compilation: Result<Compilation, Report>) -> Result<Compilation, Failure> {
+/// What came out of the compiler; prints warnings.
+pub(super) fn finish(compilation: Result<Compilation, Report>) -> Result<Compilation, Failure> {
     let compilation = compilation.map_err(|report| failure(&report))?;
     print_warnings(&compilation.report);
     Ok(compilation)
@@ -63,19 +65,5 @@ pub(super) fn number(compilation: &Compilation, name: &str) -> Result<u32, Failu
             format!("no material is called `{name}`"),
             suggest(name, &compilation.material_names()),
         )),
-    }
-}
-
-/// "did you mean …", or all names.
-pub(super) fn suggest(name: &str, known: &[String]) -> String {
-    let nearest = known
-        .iter()
-        .map(|other| (strsim::damerau_levenshtein(name, other), other))
-        .min()
-        // Up to a third of the letters wrong is a slip; more is another word.
-        .filter(|(distance, _)| *distance <= (name.len() / 3).max(1));
-    match nearest {
-        Some((_, other)) => format!("did you mean `{other}`?"),
-        None => format!("there are: {}", known.join(", ")),
     }
 }

@@ -7,10 +7,12 @@
 )]
 
 pub mod adapter;
+pub mod bench;
 pub mod build;
 pub mod check;
 pub mod contact_sheet;
 pub mod diffuse;
+pub mod kernel;
 mod lights;
 mod material_set;
 mod number;
@@ -75,6 +77,8 @@ pub enum Command {
     /// The tiles: no subsurface, Gaussian sum, Burley, polynomial, two exponentials + dipole. They differ in the profile
     /// alone; everything else of the material stays.
     ContactSheet(contact_sheet::ContactSheetArguments),
+    /// Measure kernels: errors and times side by side.
+    Bench(bench::BenchArguments),
     /// Name the graphics adapter that pictures are drawn on.
     Adapter(adapter::AdapterArguments),
 }
@@ -89,6 +93,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         Command::Reference(arguments) => reference::run(arguments),
         Command::Diffuse(arguments) => diffuse::run(arguments),
         Command::ContactSheet(arguments) => contact_sheet::run(arguments),
+        Command::Bench(arguments) => bench::run(arguments),
         Command::Adapter(arguments) => adapter::run(arguments),
     }
 }

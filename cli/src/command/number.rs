@@ -80,6 +80,17 @@ pub(super) fn pixel_mm(text: &str) -> Result<f32, String> {
         .map(|value| value as f32)
 }
 
+/// A footprint in pixels.
+pub(super) fn footprint_pixels(text: &str) -> Result<f64, String> {
+    // Below a hundredth nothing moves; above a hundred the dense kernel would not end.
+    within(text, "between 0.01 and 100 pixels", |value| (0.01..=100.0).contains(&value))
+}
+
+/// An irradiance that counts as white.
+pub(super) fn white(text: &str) -> Result<f64, String> {
+    within(text, "a finite number above 0", |value| value > 0.0 && value.is_finite())
+}
+
 fn within(text: &str, range: &str, holds: impl Fn(f64) -> bool) -> Result<f64, String> {
     let value: f64 = text.trim().parse().map_err(|_| "not a number".to_owned())?;
     if holds(value) { Ok(value) } else { Err(format!("must be {range}")) }

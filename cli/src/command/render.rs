@@ -1,17 +1,20 @@
 //! `subsurface render`.
 
+use super::kernel::KernelArguments;
 use super::material_set;
 use super::view::{MeshArguments, ViewArguments, load_scene};
-use crate::draw::{DEFAULT_TAPS, Drawn, Frame, LARGEST_TAPS, Studio};
+use crate::draw::{Drawn, Frame, Shown, Studio};
 use crate::failure::Failure;
 use crate::picture::{exr, file, write_png};
 use crate::progress::Spinner;
 use crate::say;
 use crate::scene::Scene;
 use crate::scene::camera::Size;
+use clap::builder::{PossibleValuesParser, TypedValueParser as _};
 use clap::{Args, value_parser};
 use std::path::{Path, PathBuf};
 use subsurface_codegen::Compilation;
+use subsurface_runtime::DebugView;
 
 /// The material when none is given.
 pub(super) const DEFAULT_MATERIAL: &str = "skin";
@@ -21,7 +24,9 @@ pub(super) const DEFAULT_MATERIAL: &str = "skin";
 #[command(after_help = "\
 Examples:
   subsurface render --out bust.png
-  subsurface render --material marble --size 1920x1080 --taps 33 --out bust.exr --aov buffers
+  subsurface render --material marble --size 1920x1080 --kernel interleaved:8 --out bust.exr --aov buffers
+  subsurface render --kernel importance-sampled --taps 33 --path fragment --out bust.png
+  subsurface render --debug filter-radius --out radii.png
   subsurface render --mesh head.glb --camera 0.3,0.1,0.9 --target 0,0.05,0 --light 0.7,-0.5,-0.5,2.5 --out head.png
   subsurface render --mesh head.glb --no-subsurface --out plain.png")]
 pub struct RenderArguments {
@@ -37,15 +42,18 @@ pub struct RenderArguments {
     /// Size of the picture in pixels.
     #[arg(long, value_name = "WxH", default_value = "1280x720")]
     pub size: Size,
-    /// Samples per pixel of the subsurface pass.
-    #[arg(long, value_name = "N", default_value_t = DEFAULT_TAPS, value_parser = value_parser!(u32).range(1..=i64::from(LARGEST_TAPS)))]
-    pub taps: u32,
+    /// Which kernel diffuses.
+    #[command(flatten)]
+    pub kernel: KernelArguments,
     /// Camera and lights.
     #[command(flatten)]
     pub view: ViewArguments,
     /// Leave the subsurface pass out: what a plain diffuse surface looks like.
     #[arg(long)]
     pub no_subsurface: bool,
+    /// Draw what the subsurface pass does, in place of what comes of it.
+    #[arg(long, value_name = "VIEW", value_parser = debug_view(), conflicts_with = "no_subsurface")]
+    pub debug: Option<DebugView>,
     /// Pixels drawn per pixel of the picture, along each side: 2 or more smooth the silhouettes.
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = value_parser!(u32).range(1..=8))]
     pub supersample: u32,
@@ -55,6 +63,14 @@ pub struct RenderArguments {
     /// Also write the intermediate targets as EXR files to this directory; created if missing.
     #[arg(long, value_name = "DIR")]
     pub aov: Option<PathBuf>,
+}
+
+/// The debug views by their names.
+fn debug_view() -> impl clap::builder::TypedValueParser<Value = DebugView> {
+    PossibleValuesParser::new(DebugView::ALL.iter().map(|view| view.name())).try_map(|name| {
+        let known = DebugView::ALL.iter().find(|view| view.name() == name);
+        known.copied().ok_or("no such view")
+    })
 }
 
 /// A path whose ending says in which format a picture is written.
@@ -90,9 +106,9 @@ impl PictureFile {
 pub fn run(arguments: &RenderArguments) -> Result<(), Failure> {
     // Everything that can fail at once comes before what takes long.
     file::folder_of(arguments.out.path())?;
-    let materials = material_set::compile(&arguments.materials)?;
+    let materials = arguments.kernel.compile(&material_set::compiler(&arguments.materials)?)?;
     let material = material_set::number(&materials, &arguments.material)?;
-    let mut studio = Studio::open(&materials)?;
+    let mut studio = Studio::open(&materials, arguments.kernel.path())?;
     let scene = load_scene(&arguments.mesh)?;
     let drawn = {
         let _spinner = Spinner::new("drawing");
@@ -102,8 +118,11 @@ pub fn run(arguments: &RenderArguments) -> Result<(), Failure> {
             camera: arguments.view.camera(&scene, arguments.size)?,
             lights: &arguments.view.lights(),
             size: arguments.size,
-            taps: arguments.taps,
-            subsurface: !arguments.no_subsurface,
+            shown: match arguments.debug {
+                Some(view) => Shown::Debug(view),
+                None if arguments.no_subsurface => Shown::Surface,
+                None => Shown::Subsurface,
+            },
             wants_aovs: arguments.aov.is_some(),
             wants_timings: false,
             supersampling: arguments.supersample,

@@ -1,10 +1,11 @@
 //! The subsurface pass alone, on somebody's own buffers.
 
 use subsurface_codegen::Compilation;
-use subsurface_runtime::{Extent, SubsurfaceInputs, SubsurfacePass, SubsurfaceView, Target, wgpu};
+use subsurface_runtime::{Path, SubsurfaceView, wgpu};
 
 use super::device::Device;
-use super::{beyond_device, kernel};
+use super::uploaded::{Precision, Uploaded};
+use super::{beyond_device, kernel, subsurface_pass};
 use crate::failure::Failure;
 use crate::picture::LinearPicture;
 use crate::scene::camera::Size;
@@ -16,6 +17,18 @@ pub enum PixelScale {
     MillimetresPerPixel(f32),
     /// In proportion to `Z`: a perspective view of this vertical field of view (degrees, in (0, 180)).
     FovYDegrees(f32),
+}
+
+impl PixelScale {
+    /// How the subsurface pass sees buffers of this height, whose depths are distances in mm.
+    pub fn view(self, height_pixels: u32) -> SubsurfaceView {
+        match self {
+            Self::MillimetresPerPixel(mm) => SubsurfaceView::orthographic_distances(mm),
+            Self::FovYDegrees(degrees) => {
+                SubsurfaceView::perspective_distances(degrees.to_radians(), height_pixels)
+            }
+        }
+    }
 }
 
 /// Somebody's own buffers for the subsurface pass, rows from the top.
@@ -31,57 +44,30 @@ pub struct Buffers {
     pub surface_albedo: Option<Vec<[f32; 3]>>,
     /// Number of the material, checked against the set.
     pub material: Vec<u32>,
+    /// Factor on the mean free path, ≥ 0; `None`: 1.
+    pub mean_free_path_scale: Option<Vec<f32>>,
 }
 
 /// Runs the subsurface pass alone: the diffused irradiance, background passed through.
+///
+/// `materials` must have been compiled for an output of 32-bit floats, else the pass cannot take its compute path.
 pub fn diffuse(
     buffers: &Buffers,
     materials: &Compilation,
     scale: PixelScale,
-    taps: u32,
-    seed: u32,
+    path: Option<Path>,
+    frame_index: u32,
 ) -> Result<LinearPicture, Failure> {
     let device = Device::open()?;
     let kernel = kernel(materials)?;
-    let size = Extent::new(buffers.size.width, buffers.size.height);
-    let view = match scale {
-        PixelScale::MillimetresPerPixel(mm) => SubsurfaceView::orthographic_distances(mm),
-        PixelScale::FovYDegrees(degrees) => {
-            SubsurfaceView::perspective_distances(degrees.to_radians(), size.height)
-        }
-    };
-    let own_surface_albedo =
-        |number: u32| materials.set.materials[number as usize].surface_albedo.map(|a| a as f32);
-    let surface: Vec<[f32; 4]> = buffers
-        .material
-        .iter()
-        .enumerate()
-        .map(|(pixel, &number)| {
-            let given = buffers.surface_albedo.as_ref().map(|albedos| albedos[pixel]);
-            let [red, green, blue] = given.unwrap_or_else(|| own_surface_albedo(number));
-            [red, green, blue, number as f32]
-        })
-        .collect();
-    let irradiance: Vec<[f32; 4]> = buffers.irradiance.iter().map(|[r, g, b]| [*r, *g, *b, 1.0]).collect();
     device.checked(|| {
-        let rgba32 = wgpu::TextureFormat::Rgba32Float;
-        let upload = |format, texels, label| {
-            Target::from_texels(&device.device, &device.queue, size, format, label, texels)
-                .map_err(|error| beyond_device(&error))
-        };
-        let irradiance = upload(rgba32, bytemuck::cast_slice(&irradiance), "diffuse irradiance")?;
-        let surface = upload(rgba32, bytemuck::cast_slice(&surface), "diffuse surface")?;
-        let distances = bytemuck::cast_slice(&buffers.depth_mm);
-        let depth = upload(wgpu::TextureFormat::R32Float, distances, "diffuse distance")?;
-        let mut pass = SubsurfacePass::new(&device.device, &kernel, rgba32, None);
-        let inputs = SubsurfaceInputs {
-            irradiance: &irradiance.view,
-            surface: &surface.view,
-            depth: &depth.view,
-            depth_stencil: None,
-        };
-        pass.resize(&device.device, size, &inputs).map_err(|error| beyond_device(&error))?;
-        pass.prepare(&device.queue, &view.with_taps(taps).with_seed(seed));
+        let uploaded = Uploaded::new(&device, buffers, materials, Precision::Single)?;
+        let format = wgpu::TextureFormat::Rgba32Float;
+        let mut pass = subsurface_pass(&device, &kernel, format, None, path)?;
+        pass.resize(&device.device, uploaded.size, &uploaded.inputs())
+            .map_err(|error| beyond_device(&error))?;
+        let view = scale.view(buffers.size.height).with_frame_index(frame_index);
+        pass.prepare(&device.queue, &view);
         let label = Some("diffuse");
         let mut encoder = device.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label });
         pass.encode(&mut encoder);

@@ -9,8 +9,10 @@ use crate::failure::{Explain, Failure};
 /// A device with its queue.
 #[derive(Debug)]
 pub struct Device {
-    pub(crate) device: wgpu::Device,
-    pub(crate) queue: wgpu::Queue,
+    /// The device.
+    pub device: wgpu::Device,
+    /// Its queue.
+    pub queue: wgpu::Queue,
     adapter: wgpu::AdapterInfo,
 }
 

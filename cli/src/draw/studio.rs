@@ -4,13 +4,13 @@ use std::time::{Duration, Instant};
 
 use subsurface_codegen::Compilation;
 use subsurface_runtime::{
-    self as runtime, CompositeInputs, CompositePass, CompositeSettings, DirectionalLight, DistancePass,
-    Extent, GBuffer, Geometry, Object, Renderer, SubsurfaceView, SurfaceDescriptor, Target, TexturePixels,
-    Vertex, wgpu,
+    self as runtime, CompositeInputs, CompositePass, CompositeSettings, DebugView, DirectionalLight,
+    DistancePass, Extent, GBuffer, Geometry, Object, Path, Renderer, SubsurfaceView, SurfaceDescriptor,
+    Target, TexturePixels, Vertex, wgpu,
 };
 
 use super::device::Device;
-use super::{beyond_device, kernel};
+use super::{beyond_device, kernel, subsurface_pass};
 use crate::failure::Failure;
 use crate::picture::{DisplayPicture, LinearPicture};
 use crate::scene::camera::{Camera, Light, Size};
@@ -43,14 +43,23 @@ pub struct Frame<'a> {
     pub size: Size,
     /// Pixels drawn per pixel of the picture, along each side: 1, or more for smooth silhouettes.
     pub supersampling: u32,
-    /// Samples per pixel of the subsurface pass, in 1..=[`LARGEST_TAPS`](super::LARGEST_TAPS).
-    pub taps: u32,
-    /// Whether light goes below the surface at all.
-    pub subsurface: bool,
+    /// What of it is shown.
+    pub shown: Shown,
     /// Whether the intermediate targets are wanted.
     pub wants_aovs: bool,
     /// Whether each pass is timed: the frame is then drawn twice, since the first time compiles shaders.
     pub wants_timings: bool,
+}
+
+/// What of a frame is shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shown {
+    /// The picture.
+    Subsurface,
+    /// The picture without light below the surface.
+    Surface,
+    /// What the subsurface pass does.
+    Debug(DebugView),
 }
 
 /// What came of a [`Frame`].
@@ -76,12 +85,16 @@ pub struct Studio {
 }
 
 impl Studio {
-    /// Opens a device and makes the pipelines.
-    pub fn open(materials: &Compilation) -> Result<Self, Failure> {
+    /// Opens a device and makes the pipelines; `path` is the subsurface pass's, by default what the device has.
+    pub fn open(materials: &Compilation, path: Option<Path>) -> Result<Self, Failure> {
         let device = Device::open()?;
         let kernel = kernel(materials)?;
         let (renderer, linear) = device.checked(|| {
-            let renderer = Renderer::new(&device.device, &kernel, DISPLAY_FORMAT);
+            let mut renderer = Renderer::new(&device.device, &kernel, DISPLAY_FORMAT);
+            if path.is_some() {
+                let (format, stencil) = (GBuffer::COLOUR_FORMAT, Some(GBuffer::DEPTH_STENCIL_FORMAT));
+                renderer.subsurface = subsurface_pass(&device, &kernel, format, stencil, path)?;
+            }
             Ok((renderer, CompositePass::new(&device.device, LINEAR_FORMAT)))
         })?;
         Ok(Self { device, renderer, linear })
@@ -112,6 +125,10 @@ fn draw(
     };
     let size = Extent::new(drawn_size.width, drawn_size.height);
     renderer.resize(&device.device, size).map_err(|error| beyond_device(&error))?;
+    renderer.subsurface.set_debug_view(match frame.shown {
+        Shown::Debug(view) => Some(view),
+        Shown::Subsurface | Shown::Surface => None,
+    });
     let objects = objects(device, renderer, frame)?;
     let view = prepare(device, renderer, frame, size);
 
@@ -141,11 +158,18 @@ fn draw(
     linear.prepare(&device.queue, &CompositeSettings { tone_map: false, ..Default::default() });
     submit(device, |encoder| linear.encode(encoder, &linear_target.view));
 
-    let bytes = device.read_bytes(&display.texture)?;
-    let pixels = bytes.chunks_exact(4).map(|texel| [texel[0], texel[1], texel[2]]).collect();
+    let (display, linear) = if let Shown::Debug(_) = frame.shown {
+        // Colours of the pass's own, not light: they go past the surface albedo and the tone mapping.
+        let linear = picture(device, diffused, drawn_size)?;
+        (linear.to_display(), linear)
+    } else {
+        let bytes = device.read_bytes(&display.texture)?;
+        let pixels = bytes.chunks_exact(4).map(|texel| [texel[0], texel[1], texel[2]]).collect();
+        (DisplayPicture { size: drawn_size, pixels }, picture(device, &linear_target, drawn_size)?)
+    };
     Ok(Drawn {
-        display: DisplayPicture { size: drawn_size, pixels }.shrunk(factor),
-        linear: picture(device, &linear_target, drawn_size)?.shrunk(factor),
+        display: display.shrunk(factor),
+        linear: linear.shrunk(factor),
         // Depth and material numbers have no mean: these stay as they were drawn.
         aovs: if frame.wants_aovs { aovs(device, targets, diffused, &view, drawn_size)? } else { Vec::new() },
         timings,
@@ -179,9 +203,9 @@ fn prepare(device: &Device, renderer: &mut Renderer, frame: &Frame<'_>, size: Ex
         ambient_irradiance: [std::f32::consts::PI * AMBIENT_INTENSITY; 3],
         bounds,
         millimetres_per_world_unit: MILLIMETRES_PER_WORLD_UNIT,
-        transmission: if frame.subsurface { 1.0 } else { 0.0 },
-        taps: if frame.subsurface { frame.taps } else { 0 },
-        seed: 0,
+        transmission: if frame.shown == Shown::Surface { 0.0 } else { 1.0 },
+        taps: if frame.shown == Shown::Surface { Some(0) } else { None },
+        frame_index: 0,
         composite: CompositeSettings::default(),
     };
     renderer.prepare(&device.queue, &frame);

@@ -36,6 +36,12 @@ impl LinearPicture {
         let (size, pixels) = shrunk(self.size, &self.pixels, factor);
         Self { size, pixels }
     }
+
+    /// The picture as a screen shows it: clamped to [0, 1] and encoded, without tone mapping.
+    pub fn to_display(&self) -> DisplayPicture {
+        let code = |linear: f32| srgb_from_linear(linear.clamp(0.0, 1.0));
+        DisplayPicture { size: self.size, pixels: self.pixels.iter().map(|pixel| pixel.map(code)).collect() }
+    }
 }
 
 /// Means of `factor`×`factor` pixels.

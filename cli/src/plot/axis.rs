@@ -83,9 +83,17 @@ impl Axis {
                 let mut ticks: Vec<f64> =
                     (first..=last).rev().step_by(stride).map(|d| 10f64.powi(d)).collect();
                 ticks.reverse();
-                ticks
+                // One number is no scale.
+                if ticks.len() < 2 { self.half_decades(first, last) } else { ticks }
             }
         }
+    }
+
+    /// 1, 2 and 5 times the powers of ten about those from `first` to `last`, on the axis.
+    fn half_decades(&self, first: i32, last: i32) -> Vec<f64> {
+        let of = |decade: i32| [1.0, 2.0, 5.0].map(|digit| digit * 10f64.powi(decade));
+        let inside = |value: &f64| (self.low..=self.high).contains(value);
+        (first - 1..=last.max(first)).flat_map(of).filter(inside).collect()
     }
 
     /// Values between the ticks that get a pale line.
@@ -200,6 +208,12 @@ mod tests {
         assert_eq!(texts(&axis), ["10⁻⁴", "10⁻³", "0.01", "0.1", "1", "10"]);
         assert_eq!(axis.minor_ticks(), Vec::<f64>::new());
         assert_eq!(texts(&Axis::log("r", 0.5, 20.0)), ["1", "10"]);
+    }
+
+    #[test]
+    fn a_short_logarithmic_axis_has_ticks_between_decades() {
+        assert_eq!(texts(&Axis::log("t", 0.15, 4.0)), ["0.2", "0.5", "1", "2"]);
+        assert_eq!(texts(&Axis::log("t", 1.5, 6.0)), ["2", "5"]);
     }
 
     #[test]

@@ -92,6 +92,20 @@ impl FigureFile {
         }
     }
 
+    /// The same with `-suffix` before the ending.
+    #[must_use]
+    pub fn with_suffix(&self, suffix: &str) -> Self {
+        let with = |path: &Path| {
+            let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+            let ending = path.extension().unwrap_or_default().to_string_lossy();
+            path.with_file_name(format!("{stem}-{suffix}.{ending}"))
+        };
+        match self {
+            Self::Svg(path) => Self::Svg(with(path)),
+            Self::Png(path) => Self::Png(with(path)),
+        }
+    }
+
     /// The file.
     pub fn path(&self) -> &Path {
         match self {

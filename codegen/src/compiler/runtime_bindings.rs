@@ -7,10 +7,12 @@ use subsurface_shaders::{KERNELS, LIBRARY, Module, PASSES};
 use crate::bindings::{self, Paths};
 use crate::compose::link;
 use crate::diagnostics::{Diagnostic, Report};
+use crate::emit::Choices;
+use crate::output_format::OutputFormat;
 use crate::reflect::reflect;
 use crate::validate::validate;
 
-use super::{Compiler, DEFECT, GBUFFER_ENTRIES, Kernel, ROW, SUBSURFACE_ENTRIES};
+use super::{Compiler, DEFECT, KernelModule, ROW};
 
 /// Rust modules `shadow`, `composite` and `kernel` with the typed bindings of the runtime's own passes.
 ///
@@ -40,7 +42,7 @@ pub fn runtime_bindings() -> Result<String, Report> {
         let Some(validated) = validate(&linked, &format!("{name}.wgsl"), &mut report) else {
             return Err(report);
         };
-        let reflection = reflect(&validated.module, &validated.info, &linked.docs)
+        let reflection = reflect(&validated.module, &validated.info, &linked)
             .map_err(|error| report_of(&error.to_string()))?;
         let inner =
             bindings::module_tokens(&validated.module, &linked.docs, &reflection, &paths, |_| true, &[]);
@@ -63,8 +65,11 @@ pub fn runtime_bindings() -> Result<String, Report> {
     let loaded = Compiler::from_memory([("sample.ron", sample)]).load();
     let mut report = loaded.report;
     let Some(set) = loaded.set else { return Err(report) };
-    let roots = [SUBSURFACE_ENTRIES, GBUFFER_ENTRIES].concat();
-    let Some(kernel) = Kernel::generate(&set, &[], &roots, "", &mut report) else { return Err(report) };
+    let choices =
+        Choices { kernel: set.kernel, rejection: set.rejection, output_format: OutputFormat::default() };
+    let Some(kernel) = KernelModule::generate(&set, &choices, true, &[], "", &mut report) else {
+        return Err(report);
+    };
     let inner = bindings::module_tokens(
         &kernel.validated.module,
         &kernel.linked.docs,

@@ -259,6 +259,19 @@ impl<'t> Decoder<'t> {
         }
     }
 
+    /// `true` or `false`.
+    pub(crate) fn truth(&mut self, node: &Node<'_>, field: &str) -> Option<bool> {
+        match node.text() {
+            "true" => Some(true),
+            "false" => Some(false),
+            _ => {
+                let help = format!("write `{field}: true` or `{field}: false`");
+                self.wrong_type(node, field, "`true` or `false`", help);
+                None
+            }
+        }
+    }
+
     /// Sorts the entries of a struct by the names it knows; reports unknown and repeated ones.
     pub(crate) fn fields<'a>(
         &mut self,
@@ -310,9 +323,10 @@ impl<'t> Decoder<'t> {
                 });
                 fields.misspelt.push(meant);
             }
-            self.report(
-                diagnostic.help(format!("the fields of {owner} are {}", list(known.iter().copied()))),
-            );
+            self.report(diagnostic.help(match known {
+                [] => format!("{owner} has no fields"),
+                known => format!("the fields of {owner} are {}", list(known.iter().copied())),
+            }));
         }
         fields
     }

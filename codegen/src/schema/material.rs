@@ -4,11 +4,13 @@ use subsurface_profile::Length;
 
 use crate::diagnostics::Diagnostic;
 use crate::identifier;
+use crate::schema::body::Body;
 use crate::schema::decoder::{Decoder, Fields, Given, Triple, head};
 use crate::schema::profile::{ProfileExpression, decode_profile};
 use crate::schema::quantity::{
     DIFFUSE_MEAN_FREE_PATH, MEAN_FREE_PATH, REFLECTANCE, ROUGHNESS, SURFACE_ALBEDO, TRANSMISSION,
 };
+use crate::schema::set_file::SET;
 use crate::source::{FileId, Span, Spanned};
 use crate::suggestion::{closest, shortened};
 use crate::syntax::{Document, Entry, Name, Shape};
@@ -67,37 +69,26 @@ pub(crate) fn decode_material(
     document: &Document<'_>,
 ) -> Option<MaterialFile> {
     let node = &document.value;
-    let (name, entries) = match node.shape() {
-        Shape::Struct(Some(name), entries) if name.text == "Material" => (name, entries),
-        Shape::Tuple(Some(name), nodes) if name.text == "Material" && nodes.is_empty() => (name, Vec::new()),
-        Shape::Name(name) if name.text == "Material" => (name, Vec::new()),
-        Shape::Tuple(Some(name), _) if name.text == "Material" => {
-            decoder.report(
-                Diagnostic::error("the fields of `Material` have no names")
-                    .label(name.span, "expected `name: value` in the brackets")
-                    .help("for example `Material(profile: \"two_exponential_dipole_searchlight\", …)`"),
-            );
-            return None;
+    let Some((name, body)) = Body::of(node).filter(|(name, _)| name.text == "Material") else {
+        let found = node.name();
+        let mut diagnostic = Diagnostic::error("expected a material")
+            .label(head(found.as_ref(), node), format!("expected `Material(…)`, found {}", node.kind()));
+        if let Some(meant) = found.as_ref().and_then(|name| closest(name.text, ["Material", SET])) {
+            diagnostic = diagnostic.help(format!("did you mean `{meant}`?"));
         }
-        _ => {
-            let found = node.name();
-            let mut diagnostic = Diagnostic::error("expected a material")
-                .label(head(found.as_ref(), node), format!("expected `Material(…)`, found {}", node.kind()));
-            if let Some(meant) = found.as_ref().and_then(|name| closest(name.text, ["Material"])) {
-                diagnostic = diagnostic.help(format!("did you mean `{meant}`?"));
-            }
-            let help = "a material is `Material(profile: …, mean_free_path_mm: …, surface_albedo: …)`; \
-                        profiles belong in the folder `profiles`";
-            decoder.report(diagnostic.help(help));
-            return None;
-        }
+        let help = "a material is `Material(profile: …, mean_free_path_mm: …, surface_albedo: …)`; profiles belong \
+                    in the folder `profiles`";
+        decoder.report(diagnostic.help(help));
+        return None;
     };
+    let example = "Material(profile: \"two_exponential_dipole_searchlight\", …)";
+    let entries = body.fields(decoder, &name, example)?;
     check_version(decoder, &entries)?;
     Some(decode_fields(decoder, file, stem, document, &name, entries))
 }
 
 /// A file from the future may have fields unknown today, so the version is read before any other field.
-fn check_version(decoder: &mut Decoder, entries: &[Entry<'_>]) -> Option<()> {
+pub(super) fn check_version(decoder: &mut Decoder, entries: &[Entry<'_>]) -> Option<()> {
     let Some(entry) = entries.iter().find(|entry| entry.key.text == "version") else { return Some(()) };
     let help = format!("this compiler reads version {SCHEMA_VERSION}: write `version: {SCHEMA_VERSION}`");
     let Ok(version) = ron::from_str::<u64>(entry.value.text()) else {

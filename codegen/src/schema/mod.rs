@@ -2,14 +2,19 @@
 //!
 //! Everything that can be said of one file alone is said here; names of other files stay names.
 
+mod body;
+mod choice;
 mod decoder;
 mod material;
 mod model_error_text;
 mod profile;
+mod quality;
 mod quantity;
 mod rounded;
+mod set_file;
 
 pub(crate) use decoder::{Decoder, Given, Tables, Triple};
 pub(crate) use material::{LengthGiven, MaterialFile, SCHEMA_VERSION, decode_material};
 pub(crate) use profile::{ProfileExpression, ProfileFile, decode_profile_file};
 pub(crate) use rounded::rounded;
+pub(crate) use set_file::{SET, SetFile, decode_set_file};

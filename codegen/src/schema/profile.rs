@@ -9,9 +9,12 @@ use subsurface_profile::{
 };
 
 use crate::diagnostics::Diagnostic;
+use crate::schema::body::Body;
+use crate::schema::choice::{choice, unknown_word};
 use crate::schema::decoder::{Decoder, Fields, head};
 use crate::schema::model_error_text::describe;
 use crate::schema::quantity::{COEFFICIENT, VARIANCE, WEIGHT};
+use crate::schema::set_file::SET;
 use crate::source::{FileId, Span, Spanned};
 use crate::suggestion::{closest, list, shortened};
 use crate::syntax::{Document, Entry, Name, Node, Shape};
@@ -62,10 +65,15 @@ pub(crate) fn decode_profile_file(
     document: &Document<'_>,
 ) -> ProfileFile {
     let node = &document.value;
-    let expression = if node.name().is_some_and(|name| name.text == "Material") {
+    let noun = match node.name().map(|name| name.text) {
+        Some("Material") => Some("a material"),
+        Some(SET) => Some("a material set"),
+        _ => None,
+    };
+    let expression = if let Some(noun) = noun {
         decoder.report(
-            Diagnostic::error("expected a profile, found a material")
-                .label(head(node.name().as_ref(), node), "a material does not belong among profiles")
+            Diagnostic::error(format!("expected a profile, found {noun}"))
+                .label(head(node.name().as_ref(), node), format!("{noun} does not belong among profiles"))
                 .help(format!("profiles are {} or the name of another profile in quotes", list(MODELS)))
                 .help("move the file one folder up, out of `profiles`"),
         );
@@ -82,43 +90,39 @@ pub(crate) fn decode_profile(
     node: &Node<'_>,
     field: &str,
 ) -> Option<ProfileExpression> {
-    let (name, body) = match node.shape() {
-        Shape::Text(text) => return Some(ProfileExpression::Named(Spanned::new(text, node.span()))),
-        Shape::Struct(Some(name), entries) => (name, Body::Fields(entries)),
-        Shape::Tuple(Some(name), nodes) => (name, Body::Values(nodes)),
-        Shape::Name(name) => (name, Body::Fields(Vec::new())),
-        _ => {
-            let help = format!(
-                "write the stem of a profile file in quotes, or a model: {}",
-                list(MODELS.map(example))
-            );
-            decoder.wrong_type(node, field, "a profile", help);
-            return None;
-        }
+    if let Shape::Text(text) = node.shape() {
+        return Some(ProfileExpression::Named(Spanned::new(text, node.span())));
+    }
+    let Some((name, body)) = Body::of(node) else {
+        let help =
+            format!("write the stem of a profile file in quotes, or a model: {}", list(MODELS.map(example)));
+        decoder.wrong_type(node, field, "a profile", help);
+        return None;
     };
+    let example = example(name.text);
     let Decoded { model, spans } = match name.text {
         "Burley" => {
-            let entries = body.fields(decoder, &name)?;
+            let entries = body.fields(decoder, &name, example)?;
             burley(decoder, &name, entries)
         }
         "Polynomial" => {
-            let entries = body.fields(decoder, &name)?;
+            let entries = body.fields(decoder, &name, example)?;
             polynomial(decoder, &name, entries)
         }
         "GaussianSum" => {
-            let list = body.single(decoder, &name)?;
+            let list = body.single(decoder, &name, example)?;
             gaussian_sum(decoder, &list)
         }
         "ExponentialDipole" => {
-            let entries = body.fields(decoder, &name)?;
+            let entries = body.fields(decoder, &name, example)?;
             exponential_dipole(decoder, &name, entries)
         }
         "TwoExponentialDipole" => {
-            let entries = body.fields(decoder, &name)?;
+            let entries = body.fields(decoder, &name, example)?;
             two_exponential_dipole(decoder, &name, entries)
         }
         "Tabulated" => {
-            let entries = body.fields(decoder, &name)?;
+            let entries = body.fields(decoder, &name, example)?;
             tabulated(decoder, &name, entries)
         }
         _ => {
@@ -165,43 +169,6 @@ fn example(model: &str) -> &'static str {
     }
 }
 
-/// What stands in the brackets of a model.
-enum Body<'a> {
-    Fields(Vec<Entry<'a>>),
-    Values(Vec<Node<'a>>),
-}
-
-impl<'a> Body<'a> {
-    fn fields(self, decoder: &mut Decoder, name: &Name<'_>) -> Option<Vec<Entry<'a>>> {
-        match self {
-            Body::Fields(entries) => Some(entries),
-            Body::Values(nodes) if nodes.is_empty() => Some(Vec::new()),
-            Body::Values(_) => {
-                decoder.report(
-                    Diagnostic::error(format!("the fields of `{}` have no names", name.text))
-                        .label(name.span.clone(), "expected `name: value` in the brackets")
-                        .help(format!("for example `{}`", example(name.text))),
-                );
-                None
-            }
-        }
-    }
-
-    fn single(self, decoder: &mut Decoder, name: &Name<'_>) -> Option<Node<'a>> {
-        if let Body::Values(nodes) = self
-            && let [node] = nodes.as_slice()
-        {
-            return Some(*node);
-        }
-        decoder.report(
-            Diagnostic::error(format!("`{}` takes one list", name.text))
-                .label(name.span.clone(), "expected `[…]` in the brackets")
-                .help(format!("for example `{}`", example(name.text))),
-        );
-        None
-    }
-}
-
 /// A model with the places of its coefficients, by the paths that [`ModelError`] uses.
 struct Decoded {
     model: Model,
@@ -212,42 +179,6 @@ impl Decoded {
     fn new(model: Model, spans: BTreeMap<String, Span>) -> Option<Self> {
         Some(Self { model, spans })
     }
-}
-
-/// One of a few words.
-fn choice<'n>(
-    decoder: &mut Decoder,
-    node: &Node<'n>,
-    field: &str,
-    words: &[&'static str],
-) -> Option<&'static str> {
-    let name = match node.shape() {
-        Shape::Name(name) => name,
-        Shape::Text(text) if words.contains(&text.as_str()) => {
-            let help = format!("write it without quotes: `{field}: {text}`");
-            decoder.wrong_type(node, field, "a word", help);
-            return None;
-        }
-        _ => {
-            let help = format!("the choices are {}", list(words.iter().copied()));
-            decoder.wrong_type(node, field, "a word", help);
-            return None;
-        }
-    };
-    let found = words.iter().copied().find(|word| *word == name.text);
-    if found.is_none() {
-        unknown_word(decoder, &name, field, words);
-    }
-    found
-}
-
-fn unknown_word(decoder: &mut Decoder, name: &Name<'_>, field: &str, words: &[&'static str]) {
-    let mut diagnostic = Diagnostic::error(format!("unknown {field} `{}`", shortened(name.text)))
-        .label(name.span.clone(), "not one of the choices");
-    if let Some(meant) = closest(name.text, words.iter().copied()) {
-        diagnostic = diagnostic.help(format!("did you mean `{meant}`?"));
-    }
-    decoder.report(diagnostic.help(format!("the choices are {}", list(words.iter().copied()))));
 }
 
 /// Reads the number in field `name`; `prefix` is the path of the struct in its model.

@@ -20,15 +20,15 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let irradiance = &texture(&|x, _| [if x < 32 { 0.0 } else { 1.0 }; 4])?.view;
     let surface = &texture(&|_, y| [Material::Skin, Material::Marble][y / 32].surface_texel())?.view;
     let depth = &texture(&|_, _| [300.0; 4])?.view;
-    let inputs = SubsurfaceInputs { irradiance, surface, depth, depth_stencil: None };
+    let (depth_stencil, mean_free_path_scale) = (None, None); // neither is needed
+    let inputs = SubsurfaceInputs { irradiance, surface, depth, depth_stencil, mean_free_path_scale };
 
     let mut pass = SubsurfacePass::new(&device, &materials::kernel(), Rgba32Float, None);
     pass.resize(&device, size, &inputs)?;
     pass.prepare(&queue, &SubsurfaceView::orthographic_distances(0.05)); // mm per pixel
     let mut encoder = device.create_command_encoder(&Default::default());
     pass.encode(&mut encoder);
-    let diffused = pass.output().ok_or("resize makes the output")?;
-    let readback = Readback::record(&device, &mut encoder, &diffused.texture);
+    let readback = Readback::record(&device, &mut encoder, &pass.output().ok_or("not resized")?.texture);
     queue.submit([encoder.finish()]);
     let texels: Vec<[f32; 4]> = bytemuck::pod_collect_to_vec(&readback.wait(&device)?);
     println!("kernel {}", materials::PROVENANCE);

@@ -56,7 +56,7 @@ impl CompositePass {
             &module,
             entries,
             &[Some(&layout)],
-            format,
+            &[Some(format.into())],
             None,
         );
         let uniform = device.create_buffer(&wgpu::BufferDescriptor {

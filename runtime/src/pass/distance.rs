@@ -34,7 +34,7 @@ impl DistancePass {
             &module,
             entries,
             &[Some(&layout)],
-            Self::FORMAT,
+            &[Some(Self::FORMAT.into())],
             None,
         );
         let uniform = device.create_buffer(&wgpu::BufferDescriptor {

@@ -1,7 +1,7 @@
 //! Pass 2: irradiance, unscattered radiance and surface in one go.
 
 use crate::bindings::kernel::{
-    BindGroup2, BindGroup3, ENTRY_GBUFFER_FRAGMENT, ENTRY_GBUFFER_VERTEX, GBufferFrame, GBufferVertex,
+    BindGroup3, ENTRY_GBUFFER_FRAGMENT, ENTRY_GBUFFER_VERTEX, GBufferFrame, GBufferVertex, GbufferBindGroup2,
 };
 use crate::camera::{Bounds, Camera};
 use crate::error::{SizeError, TexelsError};
@@ -47,7 +47,7 @@ impl GBufferPass {
     /// leave them out).
     pub fn new(device: &wgpu::Device, kernel: &SubsurfaceKernel, shadow: &ShadowPass) -> Self {
         let table = MaterialTable::new(device, kernel);
-        let frame_layout = BindGroup2::layout(device, "GBufferPass frame layout");
+        let frame_layout = GbufferBindGroup2::layout(device, "GBufferPass frame layout");
         let object_layout = BindGroup3::layout(device, "GBufferPass object layout");
         let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some("GBufferPass pipeline layout"),
@@ -108,7 +108,7 @@ impl GBufferPass {
             compare: Some(wgpu::CompareFunction::LessEqual),
             ..Default::default()
         });
-        let bind_group = BindGroup2 {
+        let bind_group = GbufferBindGroup2 {
             frame: uniform.as_entire_buffer_binding(),
             shadow_maps: shadow.maps(),
             shadow_comparison: &comparison,
@@ -157,6 +157,7 @@ impl GBufferPass {
 
     /// Uploads this frame's camera and lights.
     pub fn prepare(&mut self, queue: &wgpu::Queue, view: &GBufferView<'_>) {
+        self.table.prepare(queue);
         let Some((size, _)) = &self.targets else { return };
         let aspect = size.width as f32 / size.height as f32;
         let projection = glam::Mat4::from_cols_array_2d(&view.camera.projection(aspect, &view.bounds));
@@ -198,7 +199,7 @@ impl GBufferPass {
         });
         pass.set_pipeline(&self.pipeline);
         pass.set_bind_group(0, &self.table.bind_group, &[]);
-        pass.set_bind_group(BindGroup2::INDEX, &self.bind_group, &[]);
+        pass.set_bind_group(GbufferBindGroup2::INDEX, &self.bind_group, &[]);
         for object in objects {
             pass.set_stencil_reference(if object.translucent { TRANSLUCENT_STENCIL } else { 0 });
             pass.set_bind_group(BindGroup3::INDEX, &object.bind_group, &[]);

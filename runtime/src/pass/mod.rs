@@ -23,7 +23,7 @@ fn covering_pipeline(
     module: &wgpu::ShaderModule,
     entries: (&str, &str),
     bind_group_layouts: &[Option<&wgpu::BindGroupLayout>],
-    format: wgpu::TextureFormat,
+    targets: &[Option<wgpu::ColorTargetState>],
     depth_stencil: Option<wgpu::DepthStencilState>,
 ) -> wgpu::RenderPipeline {
     let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
@@ -47,7 +47,7 @@ fn covering_pipeline(
             module,
             entry_point: Some(entries.1),
             compilation_options: Default::default(),
-            targets: &[Some(format.into())],
+            targets,
         }),
         multiview_mask: None,
         cache: None,

@@ -1,15 +1,25 @@
 //! Pass 3: light diffuses under the surface of translucent pixels.
 
-use crate::bindings::kernel::{
-    self, BindGroup1, ENTRY_PASSTHROUGH_FRAGMENT, ENTRY_SUBSURFACE_FRAGMENT, ENTRY_SUBSURFACE_VERTEX,
-};
+mod compute;
+mod debug_view;
+mod fragment;
+mod intermediate;
+mod path;
+
+use crate::bindings::kernel::{self, BindGroup1, ENTRY_DEBUG_FRAGMENT, ENTRY_SUBSURFACE_VERTEX};
 use crate::error::ResizeError;
 use crate::kernel::SubsurfaceKernel;
 use crate::material_table::MaterialTable;
-use crate::target::{Extent, TRANSLUCENT_STENCIL, Target};
+use crate::target::{Extent, Target};
 use crate::view::SubsurfaceView;
 
-/// What the pass reads. All views are of one size.
+use compute::{ComputeFrame, ComputePath};
+use fragment::{FragmentFrame, FragmentPath};
+
+pub use debug_view::DebugView;
+pub use path::{Path, PathError};
+
+/// What the pass reads. All views but the scale are of one size.
 #[derive(Clone, Copy, Debug)]
 pub struct SubsurfaceInputs<'a> {
     /// Diffuse irradiance before the surface albedo, linear RGB: any float format.
@@ -20,13 +30,17 @@ pub struct SubsurfaceInputs<'a> {
     /// Depth: a depth texture (its depth aspect) or a single-channel float texture; [`SubsurfaceView`] says what its
     /// values mean.
     pub depth: &'a wgpu::TextureView,
-    /// Depth-stencil view with [`TRANSLUCENT_STENCIL`] on translucent pixels: others are then not even shaded. Must be
-    /// given if and only if the pass was made for a stencil format; it is only read, so it may be the view whose depth
-    /// is `depth`.
+    /// Depth-stencil texture whose stencil marks translucent pixels with
+    /// [`TRANSLUCENT_STENCIL`](crate::TRANSLUCENT_STENCIL): saves work on the fragment path. It is only read, and may be
+    /// the texture whose depth aspect is `depth`. The compute path goes by the material number alone.
     pub depth_stencil: Option<&'a wgpu::TextureView>,
+    /// Factor on the mean free path per pixel, in the first component, from 0.001 to 1000: any float format. A texture
+    /// of one pixel holds for all; `None` is 1 everywhere.
+    pub mean_free_path_scale: Option<&'a wgpu::TextureView>,
 }
 
-/// Diffuses irradiance in screen space (Liang et al. 2023, eq. 22), on translucent pixels only.
+/// Diffuses irradiance in screen space (Liang et al. 2023, eq. 22), on translucent pixels only, with the estimator that
+/// its kernel was generated for.
 ///
 /// ```no_run
 /// # use subsurface_runtime::{Extent, SubsurfaceInputs, SubsurfaceKernel, SubsurfacePass, SubsurfaceView, wgpu};
@@ -36,7 +50,8 @@ pub struct SubsurfaceInputs<'a> {
 /// #     projection: [[f32; 4]; 4],
 /// # ) -> Result<(), subsurface_runtime::ResizeError> {
 /// let mut pass = SubsurfacePass::new(device, kernel, wgpu::TextureFormat::Rgba16Float, None);
-/// let inputs = SubsurfaceInputs { irradiance, surface, depth, depth_stencil: None };
+/// let inputs =
+///     SubsurfaceInputs { irradiance, surface, depth, depth_stencil: None, mean_free_path_scale: None };
 /// pass.resize(device, Extent::new(1280, 720), &inputs)?;
 /// pass.prepare(queue, &SubsurfaceView::from_projection(projection, 720, 1000.0));
 /// pass.encode(encoder);
@@ -46,14 +61,25 @@ pub struct SubsurfaceInputs<'a> {
 /// ```
 #[derive(Debug)]
 pub struct SubsurfacePass {
-    diffuse: wgpu::RenderPipeline,
-    /// Copies what the stencil leaves out; without a stencil the one pipeline does both.
-    passthrough: Option<wgpu::RenderPipeline>,
+    stages: Stages,
+    debug: wgpu::RenderPipeline,
+    debug_view: Option<DebugView>,
     table: MaterialTable,
     uniform: wgpu::Buffer,
     layout: wgpu::BindGroupLayout,
+    /// A scale of the mean free path of 1 for those who give none.
+    unit_scale: Target,
+    unit_scale_is_filled: bool,
+    taps: u32,
     format: wgpu::TextureFormat,
+    has_stencil: bool,
     bound: Option<Bound>,
+}
+
+#[derive(Debug)]
+enum Stages {
+    Compute(ComputePath),
+    Fragment(FragmentPath),
 }
 
 #[derive(Debug)]
@@ -62,10 +88,18 @@ struct Bound {
     bind_group: wgpu::BindGroup,
     depth_stencil: Option<wgpu::TextureView>,
     output: Target,
+    frame: Frame,
+}
+
+#[derive(Debug)]
+enum Frame {
+    Compute(ComputeFrame),
+    Fragment(FragmentFrame),
 }
 
 impl SubsurfacePass {
-    /// Pipelines and layouts: all that does not depend on the frame's size.
+    /// Pipelines and layouts: all that does not depend on the frame's size. Takes the compute path where the device has
+    /// one and the kernel's writes `format`, else the fragment path.
     ///
     /// `format` is the output's; `stencil` the format of [`SubsurfaceInputs::depth_stencil`], if there will be one.
     pub fn new(
@@ -74,28 +108,91 @@ impl SubsurfacePass {
         format: wgpu::TextureFormat,
         stencil: Option<wgpu::TextureFormat>,
     ) -> Self {
+        let path = match path::check_compute(device, kernel, format) {
+            Ok(()) => Path::Compute,
+            Err(_) => Path::Fragment,
+        };
+        Self::of_path(device, kernel, format, stencil, path)
+    }
+
+    /// The same on a path of the caller's choice.
+    ///
+    /// # Errors
+    /// The compute path on a device without compute shaders, or to a format that the kernel's does not write.
+    pub fn with_path(
+        device: &wgpu::Device,
+        kernel: &SubsurfaceKernel,
+        format: wgpu::TextureFormat,
+        stencil: Option<wgpu::TextureFormat>,
+        path: Path,
+    ) -> Result<Self, PathError> {
+        if path == Path::Compute {
+            path::check_compute(device, kernel, format)?;
+        }
+        Ok(Self::of_path(device, kernel, format, stencil, path))
+    }
+
+    fn of_path(
+        device: &wgpu::Device,
+        kernel: &SubsurfaceKernel,
+        format: wgpu::TextureFormat,
+        stencil: Option<wgpu::TextureFormat>,
+        path: Path,
+    ) -> Self {
         let table = MaterialTable::new(device, kernel);
         let layout = BindGroup1::layout(device, "SubsurfacePass layout");
         let module = kernel.shader_module(device);
-        let pipeline = |label, entry_point, compare| {
-            let entries = (ENTRY_SUBSURFACE_VERTEX, entry_point);
-            let layouts = [Some(&table.layout), Some(&layout)];
-            let stencil = stencil.map(|format| read_only_stencil(format, compare));
-            super::covering_pipeline(device, label, &module, entries, &layouts, format, stencil)
+        let groups = [&table.layout, &layout];
+        let stages = match path {
+            Path::Compute => Stages::Compute(ComputePath::new(device, kernel, &module, groups)),
+            Path::Fragment => {
+                Stages::Fragment(FragmentPath::new(device, kernel, &module, groups, format, stencil))
+            }
         };
-        let diffuse =
-            pipeline("SubsurfacePass pipeline", ENTRY_SUBSURFACE_FRAGMENT, wgpu::CompareFunction::Equal);
-        let passthrough = stencil.map(|_| {
-            let label = "SubsurfacePass passthrough pipeline";
-            pipeline(label, ENTRY_PASSTHROUGH_FRAGMENT, wgpu::CompareFunction::NotEqual)
-        });
+        let debug = super::covering_pipeline(
+            device,
+            "SubsurfacePass debug view",
+            &module,
+            (ENTRY_SUBSURFACE_VERTEX, ENTRY_DEBUG_FRAGMENT),
+            &groups.map(Some),
+            &[Some(format.into())],
+            None,
+        );
         let uniform = device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("SubsurfacePass view"),
             size: size_of::<kernel::SubsurfaceView>() as u64,
             usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
             mapped_at_creation: false,
         });
-        Self { diffuse, passthrough, table, uniform, layout, format, bound: None }
+        let unit_scale =
+            Target::single_pixel(device, wgpu::TextureFormat::R32Float, "SubsurfacePass scale of 1");
+        Self {
+            stages,
+            debug,
+            debug_view: None,
+            table,
+            uniform,
+            layout,
+            unit_scale,
+            unit_scale_is_filled: false,
+            taps: kernel.taps(),
+            format,
+            has_stencil: stencil.is_some(),
+            bound: None,
+        }
+    }
+
+    /// The path that the pass takes.
+    pub fn path(&self) -> Path {
+        match self.stages {
+            Stages::Compute(_) => Path::Compute,
+            Stages::Fragment(_) => Path::Fragment,
+        }
+    }
+
+    /// Shows how light is gathered in place of the diffused irradiance, from the next [`prepare`](Self::prepare) on.
+    pub fn set_debug_view(&mut self, view: Option<DebugView>) {
+        self.debug_view = view;
     }
 
     /// Binds the inputs and makes the output anew if `size` changed. Call it again when an input view is replaced.
@@ -109,79 +206,95 @@ impl SubsurfacePass {
         size: Extent,
         inputs: &SubsurfaceInputs<'_>,
     ) -> Result<(), ResizeError> {
-        match (&self.passthrough, inputs.depth_stencil) {
-            (Some(_), None) => return Err(ResizeError::StencilMissing),
-            (None, Some(_)) => return Err(ResizeError::StencilUnexpected),
+        match (self.has_stencil, inputs.depth_stencil) {
+            (true, None) => return Err(ResizeError::StencilMissing),
+            (false, Some(_)) => return Err(ResizeError::StencilUnexpected),
             _ => {}
         }
-        let output = match self.bound.take_if(|bound| bound.size == size) {
-            Some(bound) => bound.output,
-            None => Target::new(device, size, self.format, "SubsurfacePass output")?,
+        let (output, frame) = match self.bound.take_if(|bound| bound.size == size) {
+            Some(bound) => (bound.output, bound.frame),
+            None => {
+                let mut filled = wgpu::TextureUsages::RENDER_ATTACHMENT;
+                if self.path() == Path::Compute {
+                    filled |= wgpu::TextureUsages::STORAGE_BINDING;
+                }
+                let output = Target::filled_by(device, size, self.format, filled, "SubsurfacePass output")?;
+                let frame = match &self.stages {
+                    Stages::Compute(path) => Frame::Compute(path.frame(device, size, &output.view)?),
+                    Stages::Fragment(path) => Frame::Fragment(path.frame(device, size)?),
+                };
+                (output, frame)
+            }
         };
         let bind_group = BindGroup1 {
             subsurface_view: self.uniform.as_entire_buffer_binding(),
             irradiance_texture: inputs.irradiance,
             surface_texture: inputs.surface,
             depth_texture: inputs.depth,
+            mean_free_path_scale_texture: inputs.mean_free_path_scale.unwrap_or(&self.unit_scale.view),
         }
         .create(device, &self.layout, "SubsurfacePass bind group");
-        self.bound = Some(Bound { size, bind_group, depth_stencil: inputs.depth_stencil.cloned(), output });
+        let depth_stencil = inputs.depth_stencil.cloned();
+        self.bound = Some(Bound { size, bind_group, depth_stencil, output, frame });
         Ok(())
     }
 
     /// Uploads this frame's parameters.
     pub fn prepare(&mut self, queue: &wgpu::Queue, view: &SubsurfaceView) {
-        queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&view.uniform()));
+        self.table.prepare(queue);
+        if !std::mem::replace(&mut self.unit_scale_is_filled, true) {
+            let layout =
+                wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(4), rows_per_image: None };
+            let texture = &self.unit_scale.texture;
+            queue.write_texture(
+                texture.as_image_copy(),
+                bytemuck::bytes_of(&1.0_f32),
+                layout,
+                texture.size(),
+            );
+        }
+        let debug_view = self.debug_view.map_or(0, DebugView::number);
+        queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&view.uniform(self.taps, debug_view)));
     }
 
     /// Records the pass. Submits nothing; before the first [`resize`](Self::resize) there is nothing to record.
     pub fn encode(&self, encoder: &mut wgpu::CommandEncoder) {
         let Some(bound) = &self.bound else { return };
-        let depth_stencil_attachment = bound.depth_stencil.as_ref().map(|view| {
-            // No operations: both aspects are read-only, so the depth may be sampled meanwhile.
-            wgpu::RenderPassDepthStencilAttachment { view, depth_ops: None, stencil_ops: None }
-        });
+        let groups = [&self.table.bind_group, &bound.bind_group];
+        let output = &bound.output.view;
+        if self.debug_view.is_some() {
+            self.encode_debug_view(encoder, groups, output);
+            return;
+        }
+        match (&self.stages, &bound.frame) {
+            (Stages::Compute(path), Frame::Compute(frame)) => path.encode(encoder, frame, groups),
+            (Stages::Fragment(path), Frame::Fragment(frame)) => {
+                path.encode(encoder, frame, groups, output, bound.depth_stencil.as_ref());
+            }
+            // Frames are made by the stages of the pass, which never change.
+            _ => unreachable!("the frame belongs to the other path"),
+        }
+    }
+
+    fn encode_debug_view(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        groups: [&wgpu::BindGroup; 2],
+        output: &wgpu::TextureView,
+    ) {
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some("SubsurfacePass"),
-            color_attachments: &[super::cleared(&bound.output.view, wgpu::Color::TRANSPARENT)],
-            depth_stencil_attachment,
+            label: Some("SubsurfacePass debug view"),
+            color_attachments: &[super::cleared(output, wgpu::Color::TRANSPARENT)],
             ..Default::default()
         });
-        pass.set_bind_group(0, &self.table.bind_group, &[]);
-        pass.set_bind_group(BindGroup1::INDEX, &bound.bind_group, &[]);
-        if self.passthrough.is_some() {
-            pass.set_stencil_reference(TRANSLUCENT_STENCIL);
-        }
-        for pipeline in std::iter::once(&self.diffuse).chain(&self.passthrough) {
-            pass.set_pipeline(pipeline);
-            pass.draw(0..3, 0..1);
-        }
+        pass.set_bind_group(0, groups[0], &[]);
+        pass.set_bind_group(BindGroup1::INDEX, groups[1], &[]);
+        pass.set_pipeline(&self.debug);
+        pass.draw(0..3, 0..1);
     }
 
     /// The diffused irradiance; `None` before the first [`resize`](Self::resize).
     pub fn output(&self) -> Option<&Target> {
         self.bound.as_ref().map(|bound| &bound.output)
-    }
-}
-
-/// Tests the translucent bit and writes nothing.
-fn read_only_stencil(format: wgpu::TextureFormat, compare: wgpu::CompareFunction) -> wgpu::DepthStencilState {
-    let face = wgpu::StencilFaceState {
-        compare,
-        fail_op: wgpu::StencilOperation::Keep,
-        depth_fail_op: wgpu::StencilOperation::Keep,
-        pass_op: wgpu::StencilOperation::Keep,
-    };
-    wgpu::DepthStencilState {
-        format,
-        depth_write_enabled: Some(false),
-        depth_compare: Some(wgpu::CompareFunction::Always),
-        stencil: wgpu::StencilState {
-            front: face,
-            back: face,
-            read_mask: TRANSLUCENT_STENCIL,
-            write_mask: 0,
-        },
-        bias: Default::default(),
     }
 }

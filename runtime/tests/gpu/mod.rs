@@ -2,9 +2,11 @@
 
 #![allow(dead_code, unreachable_pub, reason = "each test binary uses its own part of this module")]
 
-use subsurface_codegen::{Compilation, Compiler};
+mod evaluation;
+
+use subsurface_codegen::{Compilation, Compiler, Kernel, OutputFormat};
 use subsurface_profile::{Channel, Medium, Model};
-use subsurface_runtime::{Extent, Readback, SubsurfaceKernel, Target, wgpu};
+use subsurface_runtime::{Extent, KernelKind, KernelParts, Readback, SubsurfaceKernel, Target, wgpu};
 
 /// A device and its queue.
 pub struct Gpu {
@@ -15,15 +17,20 @@ pub struct Gpu {
 impl Gpu {
     /// Opens the first adapter. A machine without one fails the test: it never skips.
     pub fn open() -> Self {
+        Self::with_limits(wgpu::Limits::default())
+    }
+
+    /// The same with other limits than WebGPU's.
+    pub fn with_limits(limits: wgpu::Limits) -> Self {
         let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
         let adapter = pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default()))
             .expect("no graphics adapter: run `cargo xtask test`, or install mesa-vulkan-drivers");
         let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
             label: Some("test device"),
-            required_limits: wgpu::Limits::default().using_resolution(adapter.limits()),
+            required_limits: limits.using_resolution(adapter.limits()),
             ..Default::default()
         }))
-        .expect("the adapter refuses a device with WebGPU's default limits");
+        .expect("the adapter refuses a device with these limits");
         Self { device, queue }
     }
 
@@ -47,7 +54,8 @@ impl Gpu {
         self.texture(size, wgpu::TextureFormat::R32Float, bytemuck::cast_slice(&texels(size, pixel)))
     }
 
-    fn texture(
+    /// A texture of `bytes`, rows from the top.
+    pub fn texture(
         &self,
         [width, height]: [u32; 2],
         format: wgpu::TextureFormat,
@@ -74,9 +82,10 @@ impl Gpu {
     }
 }
 
-/// Compiles material files in memory.
+/// Compiles material files in memory; the compute path of the result writes `Rgba32Float`.
 pub fn compile(files: &[(&str, &str)]) -> Compilation {
     Compiler::from_memory(files.iter().map(|(path, text)| (*path, *text)))
+        .output_format(OutputFormat::Rgba32Float)
         .compile()
         .unwrap_or_else(|report| panic!("{report}"))
 }
@@ -128,10 +137,28 @@ pub fn model(stem: &str) -> Model {
 
 /// The kernel of a compilation.
 pub fn kernel(compilation: &Compilation) -> SubsurfaceKernel {
-    let (wgsl, table) = (compilation.wgsl.clone(), compilation.material_table.clone());
-    let profile_tables = compilation.profile_tables.clone();
-    SubsurfaceKernel::new(wgsl, table, compilation.material_names(), profile_tables)
-        .expect("a compilation makes a kernel")
+    SubsurfaceKernel::new(kernel_parts(compilation)).expect("a compilation makes a kernel")
+}
+
+/// What a compilation gives to a kernel.
+pub fn kernel_parts(compilation: &Compilation) -> KernelParts {
+    let kind = match compilation.kernel {
+        Kernel::ImportanceSampled { .. } => KernelKind::ImportanceSampled,
+        Kernel::Separable { .. } => KernelKind::Separable,
+        Kernel::Interleaved { .. } => KernelKind::Interleaved,
+        Kernel::Dense => KernelKind::Dense,
+        unknown => panic!("{unknown} has no kind in the runtime"),
+    };
+    KernelParts {
+        wgsl: compilation.wgsl.clone(),
+        material_table: compilation.material_table.clone(),
+        material_names: compilation.material_names(),
+        profile_tables: compilation.profile_tables.clone(),
+        profile_curves: compilation.profile_curves.clone(),
+        curve_size: compilation.curve_size,
+        kind,
+        taps: compilation.kernel.taps(),
+    }
 }
 
 /// One value per pixel, rows from the top.

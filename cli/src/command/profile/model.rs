@@ -2,6 +2,7 @@
 
 use crate::command::material_set;
 use crate::failure::Failure;
+use crate::suggestion::suggest;
 use std::path::Path;
 use subsurface_codegen::{load_profile, load_profile_file};
 use subsurface_profile::Model;
@@ -43,5 +44,5 @@ pub(super) fn known(materials: &Path) -> Vec<String> {
 }
 
 fn unknown(name: &str, materials: &Path) -> Failure {
-    Failure::new(format!("no profile is called `{name}`"), material_set::suggest(name, &known(materials)))
+    Failure::new(format!("no profile is called `{name}`"), suggest(name, &known(materials)))
 }

@@ -1,0 +1,150 @@
+//! Who takes part.
+
+use super::case::Case;
+use super::goal::Goal;
+use super::subject::Subject;
+use crate::draw::device::Device;
+use crate::draw::{Uploaded, beyond_device, kernel, subsurface_pass};
+use crate::failure::Failure;
+use crate::kernel_name::KernelName;
+use subsurface_codegen::{Compilation, Kernel, OutputFormat};
+use subsurface_runtime::{Path, SubsurfacePass, wgpu};
+
+/// What a contender is given.
+#[derive(Clone, Copy, Debug)]
+pub struct Stage<'a> {
+    /// The device that draws.
+    pub device: &'a Device,
+    /// What is diffused.
+    pub case: &'a Case,
+    /// The material.
+    pub subject: &'a Subject,
+    /// The case's buffers on the device, with the subject's number.
+    pub textures: &'a Uploaded,
+    /// The path to take; `None` for the best that the device has.
+    pub path: Option<Path>,
+}
+
+/// A way to diffuse irradiance in screen space.
+pub trait Contender {
+    /// Contenders of one family differ in their taps alone, and share a line in the figure.
+    fn family(&self) -> String;
+
+    /// Samples per pixel (of separable kernels: per pass).
+    fn taps(&self) -> u32;
+
+    /// What the default kernel has to reach against this contender, if anything.
+    fn goal(&self) -> Option<Goal> {
+        None
+    }
+
+    /// Makes everything ready for the stage, or says why this contender does not suit it.
+    ///
+    /// # Errors
+    /// What the device refuses.
+    fn enter(&self, stage: &Stage<'_>) -> Result<Entry, Failure>;
+}
+
+/// What comes of entering.
+pub enum Entry {
+    /// Ready to run.
+    Runs(Box<dyn Run>),
+    /// Not made for this; the reason.
+    Declines(String),
+}
+
+/// A contender, ready to run.
+pub trait Run {
+    /// Records one frame. Submits nothing.
+    fn encode(&self, encoder: &mut wgpu::CommandEncoder);
+
+    /// Where the diffused irradiance lies after a frame: `Rgba16Float` or `Rgba32Float`.
+    fn output(&self) -> &wgpu::Texture;
+
+    /// The path that it takes.
+    fn path(&self) -> Path;
+}
+
+/// One of our kernels.
+#[derive(Clone, Copy, Debug)]
+pub struct KernelContender {
+    /// The kernel.
+    pub kernel: Kernel,
+}
+
+impl KernelContender {
+    /// The kernels and taps that are compared when none are chosen, the yardstick first.
+    pub fn all() -> Vec<Kernel> {
+        let mut all = vec![super::YARDSTICK];
+        all.extend([9, 33, 65].map(|taps| Kernel::ImportanceSampled { taps }));
+        all.extend([1, 2, 3, 4, 6, 8, 16].map(|taps| Kernel::Interleaved { taps }));
+        all.extend([11, 17, 25].map(|taps| Kernel::Separable { taps, rotated: false }));
+        all
+    }
+}
+
+impl Contender for KernelContender {
+    fn family(&self) -> String {
+        KernelName::of(self.kernel)
+            .map_or_else(|| self.kernel.kind_name().to_owned(), |name| name.family.name().to_owned())
+    }
+
+    fn taps(&self) -> u32 {
+        self.kernel.taps()
+    }
+
+    fn goal(&self) -> Option<Goal> {
+        match self.kernel {
+            Kernel::ImportanceSampled { taps: 17 | 33 } => Some(Goal::Faster),
+            Kernel::Separable { taps: 17, .. } => Some(Goal::FasterAndCloser),
+            _ => None,
+        }
+    }
+
+    fn enter(&self, stage: &Stage<'_>) -> Result<Entry, Failure> {
+        let format = OutputFormat::Rgba16Float;
+        let materials = stage.subject.compile(self.kernel, format)?;
+        Ok(Entry::Runs(Box::new(kernel_run(stage, &materials, format)?)))
+    }
+}
+
+/// A kernel on a stage, with an output of `format`.
+pub(super) fn kernel_run(
+    stage: &Stage<'_>,
+    materials: &Compilation,
+    format: OutputFormat,
+) -> Result<impl Run + use<>, Failure> {
+    let kernel = kernel(materials)?;
+    let format = match format {
+        OutputFormat::Rgba32Float => wgpu::TextureFormat::Rgba32Float,
+        _ => wgpu::TextureFormat::Rgba16Float,
+    };
+    let mut pass = subsurface_pass(stage.device, &kernel, format, None, stage.path)?;
+    let textures = stage.textures;
+    pass.resize(&stage.device.device, textures.size, &textures.inputs())
+        .map_err(|error| beyond_device(&error))?;
+    pass.prepare(&stage.device.queue, &stage.case.view());
+    match pass.output().map(|target| target.texture.clone()) {
+        Some(output) => Ok(KernelRun { pass, output }),
+        None => Err(Failure::new("the pass has no output", "please report this as a defect")),
+    }
+}
+
+struct KernelRun {
+    pass: SubsurfacePass,
+    output: wgpu::Texture,
+}
+
+impl Run for KernelRun {
+    fn encode(&self, encoder: &mut wgpu::CommandEncoder) {
+        self.pass.encode(encoder);
+    }
+
+    fn output(&self) -> &wgpu::Texture {
+        &self.output
+    }
+
+    fn path(&self) -> Path {
+        self.pass.path()
+    }
+}

@@ -1,0 +1,144 @@
+//! What came of one case with one subject.
+
+use super::goal::Goal;
+use super::score::Score;
+use crate::scene::camera::Size;
+use std::fmt::Write as _;
+use subsurface_runtime::Path;
+
+/// All contenders on one case with one subject.
+#[derive(Clone, Debug)]
+pub struct Report {
+    /// Name of the case.
+    pub case: String,
+    /// Name of the profile.
+    pub profile: String,
+    /// The adapter that the times belong to.
+    pub adapter: String,
+    /// Size of the buffers.
+    pub size: Size,
+    /// How many pixels scatter.
+    pub translucent_pixels: usize,
+    /// Mean radius of the widest channel, mm.
+    pub mean_radius_mm: f64,
+    /// Millimetres that a translucent pixel spans, the median.
+    pub millimetres_per_pixel: f64,
+    /// Irradiance that PSNR is relative to.
+    pub white: f64,
+    /// Time of the reference picture, its pipeline included, ms.
+    pub dense_ms: f64,
+    /// One line per contender, in the order in which they entered: the yardstick first.
+    pub lines: Vec<Line>,
+    /// Who did not enter.
+    pub declined: Vec<Declined>,
+}
+
+/// What came of one contender.
+#[derive(Clone, Debug)]
+pub struct Line {
+    /// Its family.
+    pub family: String,
+    /// Its taps.
+    pub taps: u32,
+    /// What the default kernel has to reach against it.
+    pub goal: Option<Goal>,
+    /// The path that it took.
+    pub path: Path,
+    /// Its error.
+    pub score: Score,
+    /// Its time, once measured.
+    pub time: Option<Time>,
+}
+
+/// Time per frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Time {
+    /// Median, ms.
+    pub milliseconds: f64,
+    /// Median of the ratios to the yardstick's time in the same round.
+    pub ratio: f64,
+}
+
+/// A contender that did not suit the case or the subject.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Declined {
+    /// Its family.
+    pub family: String,
+    /// Its taps.
+    pub taps: u32,
+    /// Why it did not suit.
+    pub reason: String,
+}
+
+impl Report {
+    /// Mean radius of the widest channel in pixels.
+    pub fn mean_radius_pixels(&self) -> f64 {
+        self.mean_radius_mm / self.millimetres_per_pixel
+    }
+
+    /// A line that says what was measured.
+    pub fn title(&self) -> String {
+        let covered = 100.0 * self.translucent_pixels as f64 / self.size.pixels() as f64;
+        format!(
+            "{}, {}: {} pixels, {covered:.0} % translucent; the mean radius of the widest channel is {:.2} mm or \
+             {:.2} pixels; PSNR against {:.3}",
+            self.case,
+            self.profile,
+            self.size,
+            self.mean_radius_mm,
+            self.mean_radius_pixels(),
+            self.white
+        )
+    }
+
+    /// Every number of all reports, unrounded: one line per contender, with a head.
+    pub fn csv(reports: &[Self]) -> String {
+        let mut text = String::from(
+            "case,profile,kernel,taps,path,width,height,translucent_pixels,mean_radius_mm,mean_radius_pixels,white,\
+             rmse,rmse_red,rmse_green,rmse_blue,psnr_db,milliseconds,time_ratio,adapter\n",
+        );
+        for report in reports {
+            for line in &report.lines {
+                let [red, green, blue] = line.score.channel_rmse;
+                let Some(Time { milliseconds, ratio }) = line.time else { continue };
+                // Writing to a string cannot fail.
+                let _ = writeln!(
+                    text,
+                    "{},{},{},{},{},{},{},{},{},{},{},{},{red},{green},{blue},{},{milliseconds},{ratio},{}",
+                    quoted(&report.case),
+                    quoted(&report.profile),
+                    quoted(&line.family),
+                    line.taps,
+                    path_name(line.path),
+                    report.size.width,
+                    report.size.height,
+                    report.translucent_pixels,
+                    report.mean_radius_mm,
+                    report.mean_radius_pixels(),
+                    report.white,
+                    line.score.rmse,
+                    line.score.psnr_db,
+                    quoted(&report.adapter),
+                );
+            }
+        }
+        text
+    }
+}
+
+/// A cell of text, RFC 4180.
+fn quoted(text: &str) -> String {
+    if text.contains([',', '"', '\n']) {
+        format!("\"{}\"", text.replace('"', "\"\""))
+    } else {
+        text.to_owned()
+    }
+}
+
+/// The path's name on the command line and in tables.
+pub(super) fn path_name(path: Path) -> &'static str {
+    match path {
+        Path::Compute => "compute",
+        Path::Fragment => "fragment",
+    }
+}

@@ -1,0 +1,175 @@
+//! What a material set adds to its bindings: the enum, the table and the kernel.
+
+use proc_macro2::{Ident, Literal, Span, TokenStream};
+use quote::quote;
+
+use crate::compiler::{PROFILE_CURVES_FILE, PROFILE_TABLES_FILE};
+use crate::docs::Docs;
+use crate::identifier::camel_case;
+use crate::kernel::Kernel;
+use crate::layout::{FieldType, Structure, structure};
+use crate::material::MaterialSet;
+use crate::value::Value;
+
+use super::{Paths, Slot, doc_attributes, gap_name, slots};
+
+/// What the bindings of a material set are written from.
+pub(crate) struct SetBindings<'a> {
+    pub(crate) set: &'a MaterialSet,
+    pub(crate) rows: &'a [Value],
+    pub(crate) provenance: &'a str,
+    pub(crate) kernel: Kernel,
+    /// Width and height of the texture of curves, texels.
+    pub(crate) curve_size: [u32; 2],
+    /// Whether the kernel reads tables of profiles.
+    pub(crate) has_tables: bool,
+}
+
+/// The enum of the materials, their table and their kernel.
+pub(crate) fn set_tokens(
+    module: &naga::Module,
+    bindings: &SetBindings<'_>,
+    row: &Structure,
+    paths: &Paths,
+) -> TokenStream {
+    let runtime = &paths.runtime;
+    let bytemuck = &paths.bytemuck;
+    let count = Literal::usize_unsuffixed(bindings.set.materials.len());
+    let names: Vec<_> = bindings.set.materials.iter().map(|material| material.name.as_str()).collect();
+    let variants: Vec<_> =
+        names.iter().map(|name| Ident::new(&camel_case(name), Span::call_site())).collect();
+    let declarations =
+        bindings.set.materials.iter().zip(&variants).enumerate().map(|(number, (material, variant))| {
+            let docs = doc_attributes(&material.docs, &format!("The material `{}`.", material.name));
+            let number = Literal::usize_unsuffixed(number);
+            quote!(#docs #variant = #number)
+        });
+    let rows = bindings.rows.iter().map(|value| literal(module, row, value));
+    let row_name = Ident::new(&row.name, Span::call_site());
+    let provenance = bindings.provenance;
+    let (tables, profile_tables) = if bindings.has_tables {
+        let file = PROFILE_TABLES_FILE;
+        let tables = quote! {
+            /// The tables of tabulated profiles.
+            #[allow(dead_code)]
+            pub static PROFILE_TABLES: &[u8] = include_bytes!(#file);
+        };
+        (tables, quote!(PROFILE_TABLES))
+    } else {
+        (TokenStream::new(), quote!(&[]))
+    };
+    let curves = PROFILE_CURVES_FILE;
+    let [curve_width, curve_height] = bindings.curve_size.map(Literal::u32_unsuffixed);
+    let kind = Ident::new(bindings.kernel.kind_name(), Span::call_site());
+    let taps = Literal::u32_unsuffixed(bindings.kernel.taps());
+    quote! {
+        /// The materials of the set. `as u32` is the number that the G-buffer's surface target holds.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        #[repr(u32)]
+        #[allow(dead_code)]
+        pub enum Material { #(#declarations),* }
+        #[allow(dead_code)]
+        impl Material {
+            /// Every material, by number.
+            pub const ALL: [Self; #count] = [#(Self::#variants),*];
+            /// Names as in the material files, by number.
+            pub const NAMES: [&'static str; #count] = [#(#names),*];
+            /// The number in the parameter table.
+            pub const fn number(self) -> u32 {
+                self as u32
+            }
+            /// The name as in the material files.
+            pub const fn name(self) -> &'static str {
+                Self::NAMES[self as usize]
+            }
+            /// The row of the parameter table.
+            pub fn parameters(self) -> &'static #row_name {
+                &MATERIALS[self as usize]
+            }
+            /// What the surface target holds where this material is: its surface albedo and its number.
+            pub fn surface_texel(self) -> [f32; 4] {
+                let [red, green, blue] = self.parameters().surface.surface_albedo;
+                [red, green, blue, self.number() as f32]
+            }
+            /// The material of that name.
+            pub fn from_name(name: &str) -> Option<Self> {
+                Self::ALL.into_iter().find(|material| material.name() == name)
+            }
+        }
+        /// SHA-256 of what the kernel was generated from.
+        #[allow(dead_code)]
+        pub const PROVENANCE: &str = #provenance;
+        /// The parameter table, by material number.
+        pub static MATERIALS: [#row_name; #count] = [#(#rows),*];
+        #tables
+        /// The curves of all profiles: the bytes of an rgba32float texture, row by row.
+        #[allow(dead_code)]
+        pub static PROFILE_CURVES: &[u8] = include_bytes!(#curves);
+        /// Width and height of the texture of curves, texels.
+        #[allow(dead_code)]
+        pub const CURVE_SIZE: [u32; 2] = [#curve_width, #curve_height];
+        /// The kernel module as WGSL.
+        #[allow(dead_code)]
+        pub const WGSL: &str = include_str!("subsurface.wgsl");
+        /// The kernel of this set, for the passes of the runtime.
+        #[allow(dead_code)]
+        pub fn kernel() -> #runtime::SubsurfaceKernel {
+            #runtime::SubsurfaceKernel::from_generated(#runtime::GeneratedKernel {
+                wgsl: WGSL,
+                material_table: #bytemuck::cast_slice(&MATERIALS),
+                material_names: &Material::NAMES,
+                profile_tables: #profile_tables,
+                profile_curves: PROFILE_CURVES,
+                curve_size: CURVE_SIZE,
+                kind: #runtime::KernelKind::#kind,
+                taps: #taps,
+            })
+        }
+    }
+}
+
+/// `value` as a Rust expression of the struct's type; fields that the value does not name are zero.
+fn literal(module: &naga::Module, layout: &Structure, value: &Value) -> TokenStream {
+    let name = Ident::new(&layout.name, Span::call_site());
+    let fields = slots(layout).into_iter().map(|slot| match slot {
+        Slot::Gap { offset, size } => {
+            let name = gap_name(offset);
+            let size = Literal::u32_unsuffixed(size);
+            quote!(#name: [0; #size])
+        }
+        Slot::Field(field) => {
+            let name = Ident::new(&field.name, Span::call_site());
+            let expression = match (&field.ty, value.field(&field.name)) {
+                (FieldType::Struct(handle), inner) => {
+                    let zero = Value::Struct(Vec::new());
+                    let inner_structure = structure(module, &Docs::default(), *handle);
+                    inner_structure.map(|s| literal(module, &s, inner.unwrap_or(&zero))).unwrap_or_default()
+                }
+                (_, Some(Value::F32(value))) => number(*value),
+                (_, Some(Value::U32(value))) => {
+                    let value = Literal::u32_unsuffixed(*value);
+                    quote!(#value)
+                }
+                (_, Some(Value::Vector(components))) => {
+                    let components = components.iter().map(|component| number(*component));
+                    quote!([#(#components),*])
+                }
+                (FieldType::F32, _) => quote!(0.0),
+                (FieldType::U32 | FieldType::I32, _) => quote!(0),
+                (FieldType::Vector { scalar: "f32", length }, _) => {
+                    let length = Literal::usize_unsuffixed(*length);
+                    quote!([0.0; #length])
+                }
+                _ => unreachable!("rows hold scalars and f32 vectors: {}", field.name),
+            };
+            quote!(#name: #expression)
+        }
+    });
+    quote!(#name { #(#fields),* })
+}
+
+/// A float literal; `proc_macro2` refuses negative ones, so the sign stands before it.
+fn number(value: f32) -> TokenStream {
+    let magnitude = Literal::f32_unsuffixed(value.abs());
+    if value.is_sign_negative() { quote!(-#magnitude) } else { quote!(#magnitude) }
+}

@@ -1,0 +1,81 @@
+//! What a set compiles to.
+
+use std::path::{Path, PathBuf};
+
+use crate::diagnostics::Report;
+use crate::kernel::Kernel;
+use crate::material::MaterialSet;
+use crate::output::{self, BuildError};
+use crate::quality::QualityReport;
+use crate::rejection::Rejection;
+
+/// File of the tables of tabulated profiles, beside the WGSL.
+pub(crate) const PROFILE_TABLES_FILE: &str = "subsurface.tables";
+
+/// File of the curves of all profiles, beside the WGSL.
+pub(crate) const PROFILE_CURVES_FILE: &str = "subsurface.curves";
+
+/// What a set compiles to.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct Compilation {
+    /// The kernel module: validated WGSL.
+    pub wgsl: String,
+    /// Rust bindings; they include the WGSL from `subsurface.wgsl` beside them.
+    pub rust: String,
+    /// Reflection manifest: JSON.
+    pub manifest: String,
+    /// The materials, by number.
+    pub set: MaterialSet,
+    /// The kernel that was generated: the compiler's, or else that of the set.
+    pub kernel: Kernel,
+    /// Which taps it leaves out: as the compiler says, or else the set.
+    pub rejection: Rejection,
+    /// What the kernel was chosen by, if the set asks for an error.
+    pub quality: Option<QualityReport>,
+    /// The parameter table, as the bytes of the storage buffer.
+    pub material_table: Vec<u8>,
+    /// The tables of tabulated profiles, as the bytes of the second storage buffer; empty where no material uses one.
+    pub profile_tables: Vec<u8>,
+    /// The curves of all profiles, as the bytes of an rgba32float texture, row by row.
+    pub profile_curves: Vec<u8>,
+    /// Width and height of that texture, texels; the height is at most 8192.
+    pub curve_size: [u32; 2],
+    /// SHA-256 of the inputs, hexadecimal.
+    pub provenance: String,
+    /// Warnings.
+    pub report: Report,
+    /// Every file that was read, sorted.
+    pub files_read: Vec<PathBuf>,
+    /// Every directory that was listed, sorted.
+    pub directories_read: Vec<PathBuf>,
+}
+
+impl Compilation {
+    /// Names of the materials, by number.
+    pub fn material_names(&self) -> Vec<String> {
+        self.set.materials.iter().map(|material| material.name.clone()).collect()
+    }
+
+    /// Writes `subsurface.rs`, `subsurface.wgsl`, `subsurface.json` and `subsurface.curves` into `directory`, each whole
+    /// or not at all; a file that already holds the text is left alone. A set with tabulated profiles adds
+    /// `subsurface.tables`.
+    ///
+    /// # Errors
+    /// A file that cannot be written.
+    pub fn write_to(&self, directory: &Path) -> Result<(), BuildError> {
+        for (name, contents) in [
+            ("subsurface.wgsl", self.wgsl.as_bytes()),
+            ("subsurface.rs", self.rust.as_bytes()),
+            ("subsurface.json", self.manifest.as_bytes()),
+            (PROFILE_CURVES_FILE, &self.profile_curves),
+            (PROFILE_TABLES_FILE, &self.profile_tables),
+        ] {
+            // Most sets have no tables, and need no empty file.
+            if !contents.is_empty() {
+                output::write_if_changed(&directory.join(name), contents)?;
+            }
+        }
+        Ok(())
+    }
+}

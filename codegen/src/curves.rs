@@ -1,0 +1,248 @@
+//! Profiles as the kernels read them: rows of a texture, baked from the models in f64.
+//!
+//! A kernel needs radii at given shares of the energy, and the inverse of a CDF costs more than a texel. So each model is
+//! tabulated here, per unit of its length, over the surface albedo and the share.
+
+use subsurface_profile::{Channel, EdgeSpread, GaussianSumModel, Medium, Model, RadialProfile};
+
+use crate::material::{Material, MaterialSet};
+use crate::source::Span;
+use crate::value::single;
+
+/// Texels of a row: intervals of the share.
+const TEXELS: usize = 64;
+
+/// Rows of a model whose shape depends on the surface albedo.
+///
+/// Node k lies at v = k/15 with A = 1 - (1 - v)²: profiles widen without bound as A nears 1, roughly as 1/√(1 - A), so
+/// nodes at even steps of √(1 - A) follow them.
+const NODES: u32 = 16;
+
+/// Largest surface albedo that is tabulated: at 1 itself the profile falls as r⁻³, and its last quantile is of no use.
+const LARGEST_SURFACE_ALBEDO: f64 = 0.999;
+
+/// The share that ends a row. The radius of the whole energy is infinite for most models.
+const LAST_SHARE: f64 = 0.9999;
+
+/// Least relative step between neighbouring radii: eight steps of an f32, so that they differ on the GPU too.
+const LEAST_STEP: f64 = 1e-6;
+
+/// Knots of an edge-spread function lie at x = reach·t to this power: it is steepest at the edge. The shaders take the
+/// root.
+const EDGE_POWER: i32 = 4;
+
+/// Rows below each other: every device of WebGPU has textures of this height. Further rows stand beside them.
+const LARGEST_HEIGHT: usize = 8192;
+
+/// Where the rows of one material are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct CurvePlace {
+    /// Row of node 0, or of the red channel.
+    pub(crate) first_curve: u32,
+    /// Rows: one per node of the surface albedo, or one per channel.
+    pub(crate) curve_count: u32,
+    /// Row of the edge-spread function of node 0; 0 where the kernel reads none.
+    pub(crate) first_edge: u32,
+    /// Distance from the edge at which the rows of the edge-spread function end, per unit of the model's length.
+    pub(crate) edge_reach: f64,
+}
+
+/// The curves of a set: an rgba32float texture.
+#[derive(Debug)]
+pub(crate) struct Curves {
+    /// By material number.
+    pub(crate) places: Vec<CurvePlace>,
+    rows: Vec<Row>,
+}
+
+/// (value at the start of the interval, its growth over the interval) of this node, then of the next.
+type Row = [[f32; 4]; TEXELS];
+
+/// Values at the ends of all intervals.
+pub(crate) type Knots = [f64; TEXELS + 1];
+
+/// A surface albedo at which a model has no profile.
+#[derive(Clone, Debug)]
+pub(crate) struct NoProfile {
+    /// Where the model is written.
+    pub(crate) span: Span,
+    pub(crate) surface_albedo: f64,
+    /// What the model says.
+    pub(crate) reason: String,
+}
+
+impl Curves {
+    /// Bakes the models of `set`, each once; with edge-spread functions if `with_edges`.
+    pub(crate) fn bake(set: &MaterialSet, with_edges: bool) -> Result<Self, NoProfile> {
+        let mut models: Vec<&Model> = Vec::new();
+        let mut model_of = Vec::with_capacity(set.materials.len());
+        let mut curves: Vec<Row> = Vec::new();
+        let mut edges: Vec<Row> = Vec::new();
+        let mut places: Vec<CurvePlace> = Vec::new();
+        for material in &set.materials {
+            let model = &material.profile.model;
+            if let Some(known) = models.iter().position(|known| *known == model) {
+                model_of.push(known);
+                continue;
+            }
+            model_of.push(models.len());
+            models.push(model);
+            let profiles = Nodes::of(material)?;
+            let quantiles: Vec<Knots> = profiles.nodes.iter().map(|profile| quantiles(&**profile)).collect();
+            let mut place = CurvePlace {
+                first_curve: row_number(curves.len()),
+                curve_count: row_number(quantiles.len()),
+                first_edge: row_number(edges.len()),
+                edge_reach: 0.0,
+            };
+            curves.extend(profiles.rows(&quantiles));
+            if with_edges {
+                place.edge_reach = quantiles.iter().map(|radii| radii[TEXELS]).fold(0.0, f64::max);
+                let knots: Vec<Knots> =
+                    profiles.nodes.iter().map(|profile| edge(&**profile, place.edge_reach)).collect();
+                edges.extend(profiles.rows(&knots));
+            }
+            places.push(place);
+        }
+        // Edges follow all radii.
+        let shift = if with_edges { row_number(curves.len()) } else { 0 };
+        let places = model_of.into_iter().map(|model: usize| {
+            let place = places[model];
+            CurvePlace { first_edge: place.first_edge + shift, ..place }
+        });
+        let places = places.collect();
+        curves.append(&mut edges);
+        Ok(Self { places, rows: curves })
+    }
+
+    /// Texels so far: those of whole rows.
+    pub(crate) fn texels(&self) -> u32 {
+        row_number(TEXELS * self.rows.len())
+    }
+
+    /// Adds texels behind all rows; the last row is filled up with zeros.
+    pub(crate) fn append(&mut self, texels: &[[f32; 4]]) {
+        self.rows.extend(texels.chunks(TEXELS).map(|texels| {
+            let mut row = [[0.0; 4]; TEXELS];
+            row[..texels.len()].copy_from_slice(texels);
+            row
+        }));
+    }
+
+    /// Width and height of the texture, texels.
+    pub(crate) fn size(&self) -> [u32; 2] {
+        let columns = self.rows.len().div_ceil(LARGEST_HEIGHT);
+        [row_number(TEXELS * columns), row_number(self.rows.len().min(LARGEST_HEIGHT))]
+    }
+
+    /// The texture's bytes, row by row: f32, little-endian.
+    ///
+    /// Row r of the curves begins at x = 64·(r / 8192), y = r % 8192.
+    pub(crate) fn bytes(&self) -> Vec<u8> {
+        let [width, height] = self.size().map(|extent| extent as usize);
+        let mut bytes = vec![0; 16 * width * height];
+        for (number, row) in self.rows.iter().enumerate() {
+            let (column, y) = (number / LARGEST_HEIGHT, number % LARGEST_HEIGHT);
+            let start = 16 * (y * width + TEXELS * column);
+            let target = bytes[start..start + 16 * TEXELS].chunks_exact_mut(4);
+            for (target, value) in target.zip(row.iter().flatten()) {
+                target.copy_from_slice(&value.to_le_bytes());
+            }
+        }
+        bytes
+    }
+}
+
+/// A number of rows, or of their texels: at most 2 × 16 rows for each of 2048 models.
+fn row_number(rows: usize) -> u32 {
+    u32::try_from(rows).expect("2048 models have fewer than 2^32 texels")
+}
+
+/// The profiles of one model that get a row each.
+struct Nodes {
+    nodes: Vec<Box<dyn RadialProfile>>,
+    /// Whether there is something between a row and the next: surface albedos, not channels.
+    continuous: bool,
+}
+
+impl Nodes {
+    fn of(material: &Material) -> Result<Self, NoProfile> {
+        let model = &material.profile.model;
+        let profile = |surface_albedo: f64, channel: Channel| {
+            // Radii are per unit of the model's length; a sum of Gaussians has lengths of its own, in mm.
+            Medium::new(surface_albedo, 1.0)
+                .map_err(|error| error.to_string())
+                .and_then(|medium| model.profile(medium, channel).map_err(|error| error.to_string()))
+                .map_err(|reason| NoProfile { span: material.profile.span.clone(), surface_albedo, reason })
+        };
+        Ok(if depends_on_channel(model) {
+            let nodes = Channel::ALL.into_iter().map(|channel| profile(0.5, channel));
+            Self { nodes: nodes.collect::<Result<_, _>>()?, continuous: false }
+        } else {
+            let nodes = (0..NODES).map(|node| profile(surface_albedo(node), Channel::Red));
+            Self { nodes: nodes.collect::<Result<_, _>>()?, continuous: true }
+        })
+    }
+
+    /// The rows of `knots`, one per node.
+    fn rows<'k>(&self, knots: &'k [Knots]) -> impl Iterator<Item = Row> + use<'k> {
+        let step = usize::from(self.continuous);
+        (0..knots.len()).map(move |node| row(&knots[node], &knots[(node + step).min(knots.len() - 1)]))
+    }
+}
+
+/// Whether the channels of a model differ by more than their surface albedo and length: [`GaussianSumModel`] has a
+/// weight per channel.
+pub(crate) fn depends_on_channel(model: &Model) -> bool {
+    matches!(model, Model::GaussianSum(GaussianSumModel { .. }))
+}
+
+/// Surface albedo of a node.
+fn surface_albedo(node: u32) -> f64 {
+    let remainder = 1.0 - f64::from(node) / f64::from(NODES - 1);
+    (1.0 - remainder * remainder).min(LARGEST_SURFACE_ALBEDO)
+}
+
+/// Radii within which the share u = 1 - (1 - t)² of the energy leaves, t = j/64: steps of t are finer in the tail,
+/// where radii grow fastest. Strictly increasing, so that a kernel can search for a radius.
+pub(crate) fn quantiles(profile: &dyn RadialProfile) -> Knots {
+    let mut last = 0.0;
+    std::array::from_fn(|index| {
+        let beyond = 1.0 - fraction(index);
+        let share = if index == TEXELS { LAST_SHARE } else { 1.0 - beyond * beyond };
+        let radius = profile.sample_radius(share);
+        if index > 0 {
+            let least = last * (1.0 + LEAST_STEP) + f64::from(f32::MIN_POSITIVE);
+            last = if radius > least { radius } else { least };
+        }
+        last
+    })
+}
+
+/// The edge-spread function F(x): the share of the light of a line source at 0 that leaves before x; 1/2 at x = 0.
+fn edge(profile: &dyn RadialProfile, reach: f64) -> Knots {
+    let spread = EdgeSpread::new(profile);
+    let mut last = 0.5;
+    std::array::from_fn(|index| {
+        let t = fraction(index);
+        // The integral is good to 1e-10, which may turn a plateau into a step down.
+        last = spread.at(reach * t.powi(EDGE_POWER)).clamp(last, 1.0);
+        last
+    })
+}
+
+/// j/64.
+fn fraction(index: usize) -> f64 {
+    index as f64 / TEXELS as f64
+}
+
+fn row(own: &Knots, next: &Knots) -> Row {
+    std::array::from_fn(|index| {
+        let [own, next] =
+            [own, next].map(|knots| [knots[index], knots[index + 1] - knots[index]].map(single));
+        [own[0], own[1], next[0], next[1]]
+    })
+}
+
+#[cfg(test)]
+mod tests;

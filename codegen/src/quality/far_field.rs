@@ -1,0 +1,110 @@
+//! Twin of `shaders/kernels/far_field.wgsl`: what a block gathers from beyond the ring.
+
+use std::f64::consts::TAU;
+
+use super::gathered::Gathered;
+use super::near_field::FAR_RADIUS_PIXELS;
+use super::patch::Patch;
+use super::point::{Point, Tap, pixel_at, turned};
+use super::scene::Scene;
+
+/// Radii are drawn from the widest profile made wider by this factor.
+pub(super) const FAR_STRETCH: f64 = 1.2;
+
+/// Share of the stretched profile that is sampled.
+pub(super) const FAR_QUANTILE: f64 = 0.98;
+
+/// Slices of the common lattice: one for each block of 2×2 blocks.
+pub(super) const LATTICE_SLICES: usize = 4;
+
+/// The taps of all slices of the lattice.
+#[derive(Debug)]
+pub(super) struct Lattice {
+    slices: Vec<Vec<Tap>>,
+    /// Share of the light that a tap stands for.
+    share: f64,
+}
+
+impl Lattice {
+    /// The lattice for blocks with `taps` taps.
+    pub(super) fn new(point: &Point<'_>, taps: u32) -> Self {
+        let widest = &point.optics.channels[point.optics.widest];
+        let u_inner = widest.profile.radial_cdf(FAR_RADIUS_PIXELS * point.pixel / FAR_STRETCH);
+        if taps == 0 || u_inner >= FAR_QUANTILE {
+            return Self { slices: vec![Vec::new(); LATTICE_SLICES], share: 0.0 };
+        }
+        let u_range = FAR_QUANTILE - u_inner;
+        let slice = |slice: usize| {
+            let start = TAU * slice as f64 / LATTICE_SLICES as f64;
+            let mut direction = [start.cos(), start.sin()];
+            let taps = (0..taps).map(|tap| {
+                let within = (slice as f64 + 0.5) / LATTICE_SLICES as f64;
+                let stratum = (f64::from(tap) + within) / f64::from(taps);
+                let (radius, slope) = point.quantile(u_inner + stratum * u_range);
+                let here = direction;
+                direction = turned(direction);
+                Tap::new(point, (FAR_STRETCH * radius, FAR_STRETCH * slope), here)
+            });
+            taps.collect()
+        };
+        Self { slices: (0..LATTICE_SLICES).map(slice).collect(), share: u_range / f64::from(taps) }
+    }
+
+    /// The far field of a block whose middle is at `position` of the scene, `depth` pixels away.
+    pub(super) fn gather(
+        &self,
+        point: &Point<'_>,
+        scene: Scene,
+        slice: usize,
+        position: [f64; 2],
+        depth: f64,
+    ) -> Gathered {
+        let mut gathered = Gathered::default();
+        for tap in &self.slices[slice] {
+            let [x, y] = pixel_at(position, tap.offset);
+            let apart = point.depth_pixels(scene.depth(x) - depth);
+            gathered.add(tap.weight(point, apart), [scene.light(x, y); 3]);
+        }
+        let mut far = Gathered::default();
+        far.add_share(&gathered, self.share);
+        far
+    }
+}
+
+/// Side of a block, pixels.
+pub(super) const BLOCK_SIDE: i32 = 2;
+
+/// Pixels that share their taps.
+pub(super) const PIXELS_OF_BLOCK: u32 = 4;
+
+/// Slice of the lattice that a block takes.
+pub(super) fn lattice_slice([x, y]: [i32; 2]) -> usize {
+    ((x & 1) + 2 * ((x + y) & 1)) as usize
+}
+
+/// A block as its pixels read it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Block {
+    pub(super) far: Gathered,
+    /// Mean distance, pixels.
+    pub(super) depth: f64,
+}
+
+impl Block {
+    /// The block `block` of the screen.
+    pub(super) fn gather(
+        lattice: &Lattice,
+        point: &Point<'_>,
+        scene: Scene,
+        patch: Patch,
+        block: [i32; 2],
+    ) -> Self {
+        let first = patch.in_scene(block.map(|place| BLOCK_SIDE * place));
+        let position = first.map(|place| f64::from(place) + 0.5);
+        let depth = 0.5 * (scene.depth(first[0]) + scene.depth(first[0] + 1));
+        let mut far = Gathered::default();
+        let gathered = lattice.gather(point, scene, lattice_slice(block), position, depth);
+        far.add_share(&gathered, point.blend());
+        Self { far, depth }
+    }
+}

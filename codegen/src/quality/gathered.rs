@@ -1,0 +1,49 @@
+//! Light on its way to a pixel: the twin of `shaders/kernels/rejection.wgsl`.
+
+/// One number per channel: red, green, blue.
+pub(super) type Rgb = [f64; 3];
+
+/// Light that was gathered, and the energy that was found for it.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Gathered {
+    /// Σ wᵢ Eᵢ
+    pub(super) irradiance: Rgb,
+    /// Σ wᵢ
+    pub(super) weight: Rgb,
+}
+
+/// Least energy that stands for all of it: where taps found less, the pixel's own light fills it up.
+pub(super) const SMALLEST_ENERGY: f64 = 1e-3;
+
+impl Gathered {
+    /// Adds white or grey light.
+    pub(super) fn add(&mut self, weight: Rgb, irradiance: Rgb) {
+        for channel in 0..3 {
+            self.irradiance[channel] += weight[channel] * irradiance[channel];
+            self.weight[channel] += weight[channel];
+        }
+    }
+
+    /// Adds another light, `share` of it.
+    pub(super) fn add_share(&mut self, other: &Self, share: f64) {
+        for channel in 0..3 {
+            self.irradiance[channel] += share * other.irradiance[channel];
+            self.weight[channel] += share * other.weight[channel];
+        }
+    }
+
+    /// What a pixel of irradiance `own` makes of it; `returned` gives missing energy to the pixel.
+    pub(super) fn diffused(&self, own: Rgb, returned: bool) -> Rgb {
+        let least = if returned { 1.0 } else { SMALLEST_ENERGY };
+        std::array::from_fn(|channel| {
+            let weight = self.weight[channel];
+            let missing = (least - weight).max(0.0);
+            (self.irradiance[channel] + missing * own[channel]) / (weight + missing)
+        })
+    }
+}
+
+/// Between `own` and `diffused`.
+pub(super) fn mixed(own: Rgb, diffused: Rgb, share: f64) -> Rgb {
+    std::array::from_fn(|channel| own[channel] + share * (diffused[channel] - own[channel]))
+}

@@ -1,0 +1,36 @@
+//! A material at a footprint, with the kernel that was drawn there last.
+
+use std::cell::RefCell;
+
+use crate::kernel::Kernel;
+
+use super::gathered::Rgb;
+use super::patch::Patch;
+use super::point::Point;
+use super::scene::Scene;
+use super::twin::Twin;
+
+/// A material at a footprint. Its pictures share the kernel's taps.
+#[derive(Debug)]
+pub(super) struct Stage<'a> {
+    pub(super) point: Point<'a>,
+    last: RefCell<Option<(Kernel, Twin<'a>)>>,
+}
+
+impl<'a> Stage<'a> {
+    pub(super) fn new(point: Point<'a>) -> Self {
+        Self { point, last: RefCell::new(None) }
+    }
+
+    /// The pixels of a scene, patch by patch; `None` for `Dense`, which has no twin.
+    pub(super) fn draw(&self, kernel: Kernel, scene: Scene, patches: &[Patch]) -> Option<Vec<Rgb>> {
+        let known = self.last.take().filter(|(known, _)| *known == kernel);
+        let twin = match known {
+            Some((_, twin)) => twin,
+            None => Twin::new(kernel, self.point)?,
+        };
+        let pixels = patches.iter().flat_map(|patch| twin.draw(scene, *patch)).collect();
+        self.last.replace(Some((kernel, twin)));
+        Some(pixels)
+    }
+}

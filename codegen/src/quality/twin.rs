@@ -1,0 +1,59 @@
+//! A kernel at a footprint, whichever it is.
+
+use crate::kernel::Kernel;
+
+use super::far_field::PIXELS_OF_BLOCK;
+use super::gathered::Rgb;
+use super::importance_sampled::ImportanceSampled;
+use super::interleaved::Interleaved;
+use super::patch::Patch;
+use super::point::Point;
+use super::scene::Scene;
+use super::separable::Separable;
+
+/// A kernel as the processor runs it.
+#[derive(Debug)]
+pub(super) enum Twin<'a> {
+    ImportanceSampled(ImportanceSampled<'a>),
+    Separable(Separable<'a>),
+    Interleaved(Interleaved<'a>),
+}
+
+impl<'a> Twin<'a> {
+    /// The twin of a kernel; `None` for `Dense`, which has no error.
+    pub(super) fn new(kernel: Kernel, point: Point<'a>) -> Option<Self> {
+        Some(match kernel {
+            Kernel::ImportanceSampled { taps } => {
+                Self::ImportanceSampled(ImportanceSampled::new(point, taps))
+            }
+            Kernel::Separable { taps, rotated } => Self::Separable(Separable::new(point, taps, rotated)),
+            Kernel::Interleaved { taps } => Self::Interleaved(Interleaved::new(point, taps)),
+            Kernel::Dense => return None,
+        })
+    }
+
+    /// A kernel with the taps that the footprint leaves of its own: those with the same draw the same.
+    pub(super) fn effective(kernel: Kernel, point: &Point<'_>) -> Kernel {
+        match kernel {
+            Kernel::ImportanceSampled { taps } => {
+                Kernel::ImportanceSampled { taps: point.footprint_taps(taps) }
+            }
+            Kernel::Separable { taps, rotated } => {
+                Kernel::Separable { taps: point.footprint_taps(taps - 1) + 1, rotated }
+            }
+            Kernel::Interleaved { taps } => {
+                Kernel::Interleaved { taps: point.footprint_taps(taps * PIXELS_OF_BLOCK) }
+            }
+            Kernel::Dense => Kernel::Dense,
+        }
+    }
+
+    /// The pixels of a patch, row by row.
+    pub(super) fn draw(&self, scene: Scene, patch: Patch) -> Vec<Rgb> {
+        match self {
+            Self::ImportanceSampled(twin) => twin.draw(scene, patch),
+            Self::Separable(twin) => twin.draw(scene, patch),
+            Self::Interleaved(twin) => twin.draw(scene, patch),
+        }
+    }
+}

@@ -1,0 +1,180 @@
+//! The error that a set allows its kernel.
+
+use crate::diagnostics::Diagnostic;
+use crate::kernel::Kernel;
+use crate::quality::{Quality, QualityRequest, Tier};
+use crate::schema::body::Body;
+use crate::schema::choice::unknown_word;
+use crate::schema::decoder::{Decoder, Fields, Given};
+use crate::suggestion::shortened;
+use crate::syntax::{Node, Shape};
+
+const WORDS: [&str; 5] = ["MaxError", "Low", "Medium", "High", "Ultra"];
+
+/// Decodes `quality` among the fields of a set, whose `kernel` is decoded already.
+pub(super) fn decode_quality(
+    decoder: &mut Decoder,
+    fields: &Fields<'_>,
+    kernel: &Given<Kernel>,
+) -> Given<QualityRequest> {
+    fields.optional("quality", |node| {
+        let quality = decode_value(decoder, node);
+        let agrees = fields.get("kernel").is_none_or(|entry| leaves_a_choice(decoder, &entry.value, node));
+        if kernel.is_bad() || !agrees {
+            return None;
+        }
+        Some(QualityRequest { quality: quality?, kernel: kernel.value().copied(), span: node.span() })
+    })
+}
+
+fn decode_value(decoder: &mut Decoder, node: &Node<'_>) -> Option<Quality> {
+    let Some((name, body)) = Body::of(node) else {
+        let help = match node.shape() {
+            Shape::Text(text) if WORDS.contains(&text.as_str()) => {
+                format!("write it without quotes: `quality: {text}`")
+            }
+            Shape::Number(_) => format!("write `quality: MaxError({})`", shortened(node.text())),
+            _ => "write `quality: MaxError(0.02)`, or one of `Low`, `Medium`, `High` and `Ultra`".to_owned(),
+        };
+        decoder.wrong_type(node, "quality", "an error or a tier", help);
+        return None;
+    };
+    let tier = Tier::ALL.into_iter().find(|tier| tier.name() == name.text);
+    match (tier, body) {
+        (Some(tier), Body::Fields(entries)) if entries.is_empty() => Some(Quality::Tier(tier)),
+        (Some(tier), Body::Values(values)) if values.is_empty() => Some(Quality::Tier(tier)),
+        (Some(tier), _) => {
+            decoder.report(
+                Diagnostic::error(format!("the tier `{}` takes no value", tier.name()))
+                    .label(node.span(), "expected the name alone")
+                    .help(format!("write `quality: {}`, which is an error of {}", tier.name(), tier.target()))
+                    .help("or `quality: MaxError(…)` for an error of your own"),
+            );
+            None
+        }
+        (None, Body::Values(values)) if name.text == "MaxError" && values.len() == 1 => {
+            decode_error(decoder, &values[0])
+        }
+        (None, _) if name.text == "MaxError" => {
+            decoder.report(
+                Diagnostic::error("`MaxError` takes one number")
+                    .label(name.span.clone(), "expected `(…)` with one number after it")
+                    .help("for example `MaxError(0.02)`"),
+            );
+            None
+        }
+        (None, _) => {
+            unknown_word(decoder, &name, "quality", &WORDS);
+            None
+        }
+    }
+}
+
+fn decode_error(decoder: &mut Decoder, node: &Node<'_>) -> Option<Quality> {
+    const MEANING: &str = "give the root mean square error as a fraction of the white level, such as 0.02";
+    let Shape::Number(error) = node.shape() else {
+        decoder.wrong_type(node, "MaxError", "a number", MEANING);
+        return None;
+    };
+    if error > 0.0 && error < 1.0 {
+        return Some(Quality::MaxError(error));
+    }
+    decoder.report(
+        Diagnostic::error(format!("an error of {}", shortened(node.text())))
+            .label(node.span(), "expected a number above 0 and below 1")
+            .help(MEANING),
+    );
+    None
+}
+
+/// Whether a kernel leaves something to choose by its error; reports what does not.
+fn leaves_a_choice(decoder: &mut Decoder, kernel: &Node<'_>, quality: &Node<'_>) -> bool {
+    let Some((name, body)) = Body::of(kernel) else { return false };
+    let (place, message, label, first) = match &body {
+        _ if name.text == "Dense" => {
+            let label = "reads every pixel in reach: its error is 0";
+            (name.span.clone(), "`Dense` has nothing to choose by its error", label, "name another kernel")
+        }
+        Body::Fields(entries) => {
+            let Some(taps) = entries.iter().find(|entry| entry.key.text == "taps") else { return true };
+            let message = "a set asks for taps and for an error";
+            (taps.key.span.clone(), message, "the error says how many taps there are", "remove `taps`")
+        }
+        Body::Values(_) => return true,
+    };
+    decoder.report(
+        Diagnostic::error(message)
+            .label(place, label)
+            .secondary(quality.span(), "the error is asked for here")
+            .help(format!("choose one: {first}, or remove `quality`")),
+    );
+    false
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::schema::decode_set_file;
+    use crate::source::{SourceMap, Span};
+    use crate::syntax;
+
+    /// The request of a text, or its first error: message, and the text that it points at.
+    fn decoded(text: &str) -> Result<Option<(Quality, Option<Kernel>)>, [String; 2]> {
+        let file = SourceMap::new().add("set.ron", text);
+        let document = syntax::parse(file, text).unwrap_or_else(|error| panic!("{}", error.message));
+        let mut decoder = Decoder::default();
+        let set = decode_set_file(&mut decoder, &document);
+        match decoder.finish(&Span::new(file, 0..text.len())).into_iter().next() {
+            Some(error) => {
+                assert!(!error.help.is_empty(), "no remedy: {}", error.message);
+                let (span, _) = error.primary.expect("an error in a file has a place");
+                Err([error.message, text[span.range].to_owned()])
+            }
+            None => {
+                Ok(set.and_then(|set| set.quality.value().map(|request| (request.quality, request.kernel))))
+            }
+        }
+    }
+
+    #[test]
+    fn errors_and_tiers_can_be_asked_for_of_all_kernels_or_of_one() {
+        let interleaved = Some(Kernel::default());
+        let rotated = Some(Kernel::Separable { taps: Kernel::DEFAULT_TAPS, rotated: true });
+        for (text, expected) in [
+            ("", None),
+            ("quality: MaxError(0.01)", Some((Quality::MaxError(0.01), None))),
+            ("quality: Low", Some((Quality::Tier(Tier::Low), None))),
+            ("quality: Ultra()", Some((Quality::Tier(Tier::Ultra), None))),
+            ("kernel: Interleaved, quality: High", Some((Quality::Tier(Tier::High), interleaved))),
+            (
+                "kernel: Separable(rotated: true), quality: Medium",
+                Some((Quality::Tier(Tier::Medium), rotated)),
+            ),
+        ] {
+            assert_eq!(decoded(&format!("MaterialSet({text})")), Ok(expected), "{text}");
+        }
+    }
+
+    #[test]
+    fn what_is_no_quality_is_refused_where_it_stands() {
+        for (text, message, place) in [
+            ("quality: MaxEror(0.01)", "unknown quality `MaxEror`", "MaxEror"),
+            ("quality: low", "unknown quality `low`", "low"),
+            ("quality: \"Low\"", "`quality` has the wrong type", "\"Low\""),
+            ("quality: 0.01", "`quality` has the wrong type", "0.01"),
+            ("quality: MaxError", "`MaxError` takes one number", "MaxError"),
+            ("quality: MaxError(error: 0.01)", "`MaxError` takes one number", "MaxError"),
+            ("quality: MaxError(0)", "an error of 0", "0"),
+            ("quality: MaxError(-0.5)", "an error of -0.5", "-0.5"),
+            ("quality: MaxError(1)", "an error of 1", "1"),
+            ("quality: MaxError(NaN)", "an error of NaN", "NaN"),
+            ("quality: MaxError(Low)", "`MaxError` has the wrong type", "Low"),
+            ("quality: High(0.01)", "the tier `High` takes no value", "High(0.01)"),
+            ("kernel: Interleaved(taps: 4), quality: Low", "a set asks for taps and for an error", "taps"),
+            ("kernel: Dense, quality: Low", "`Dense` has nothing to choose by its error", "Dense"),
+        ] {
+            let expected = Err([message.to_owned(), place.to_owned()]);
+            assert_eq!(decoded(&format!("MaterialSet({text})")), expected, "{text}");
+        }
+    }
+}

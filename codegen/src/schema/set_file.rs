@@ -1,0 +1,276 @@
+//! The file that describes the set itself.
+
+use crate::diagnostics::Diagnostic;
+use crate::kernel::Kernel;
+use crate::quality::QualityRequest;
+use crate::rejection::{Rejected, Rejection};
+use crate::schema::body::Body;
+use crate::schema::choice::{choice, unknown_word};
+use crate::schema::decoder::{Decoder, Given, head};
+use crate::schema::material::check_version;
+use crate::schema::quality::decode_quality;
+use crate::source::Span;
+use crate::suggestion::{list, shortened};
+use crate::syntax::{Document, Node, Shape};
+
+/// The name that such a file begins with, whatever it is called.
+pub(crate) const SET: &str = "MaterialSet";
+
+/// What a set's own file chooses.
+#[derive(Clone, Debug)]
+pub(crate) struct SetFile {
+    /// The word `MaterialSet`.
+    pub(crate) head: Span,
+    pub(crate) kernel: Given<Kernel>,
+    pub(crate) rejection: Given<Rejection>,
+    pub(crate) quality: Given<QualityRequest>,
+}
+
+const FIELDS: [&str; 4] = ["version", "kernel", "quality", "rejection"];
+
+const KERNELS: [&str; 4] = ["ImportanceSampled", "Separable", "Interleaved", "Dense"];
+
+/// Decodes a file whose value is `MaterialSet(…)`; `None` when nothing in it can be trusted.
+pub(crate) fn decode_set_file(decoder: &mut Decoder, document: &Document<'_>) -> Option<SetFile> {
+    let (name, body) = Body::of(&document.value)?;
+    let entries = body.fields(decoder, &name, "MaterialSet(kernel: Interleaved(taps: 4))")?;
+    check_version(decoder, &entries)?;
+    let fields = decoder.fields("`MaterialSet`", name.span.clone(), entries, &FIELDS);
+    let kernel = fields.optional("kernel", |node| decode_kernel(decoder, node));
+    let rejection = fields.optional("rejection", |node| decode_rejection(decoder, node));
+    let quality = decode_quality(decoder, &fields, &kernel);
+    Some(SetFile { head: name.span, kernel, rejection, quality })
+}
+
+fn decode_kernel(decoder: &mut Decoder, node: &Node<'_>) -> Option<Kernel> {
+    let Some((name, body)) = Body::of(node) else {
+        let help = match node.shape() {
+            Shape::Text(text) if KERNELS.contains(&text.as_str()) => {
+                format!("write it without quotes: `kernel: {text}`")
+            }
+            _ => format!("write `kernel: Interleaved(taps: 4)`; the kernels are {}", list(KERNELS)),
+        };
+        decoder.wrong_type(node, "kernel", "a kernel", help);
+        return None;
+    };
+    let (owner, known, example): (_, &[&str], _) = match name.text {
+        "ImportanceSampled" => ("`ImportanceSampled`", &["taps"], "ImportanceSampled(taps: 17)"),
+        "Separable" => ("`Separable`", &["taps", "rotated"], "Separable(taps: 17, rotated: false)"),
+        "Interleaved" => ("`Interleaved`", &["taps"], "Interleaved(taps: 4)"),
+        "Dense" => ("`Dense`", &[], "Dense"),
+        _ => {
+            unknown_word(decoder, &name, "kernel", &KERNELS);
+            return None;
+        }
+    };
+    let entries = body.fields(decoder, &name, example)?;
+    let fields = decoder.fields(owner, name.span.clone(), entries, known);
+    let rotated = fields.optional("rotated", |node| decoder.truth(node, "rotated"));
+    let with_taps = |taps: u32| match name.text {
+        "ImportanceSampled" => Kernel::ImportanceSampled { taps },
+        "Separable" => Kernel::Separable { taps, rotated: rotated.value().copied().unwrap_or_default() },
+        "Interleaved" => Kernel::Interleaved { taps },
+        _ => Kernel::Dense,
+    };
+    let default = match name.text {
+        "Interleaved" => Kernel::DEFAULT_INTERLEAVED_TAPS,
+        _ => Kernel::DEFAULT_TAPS,
+    };
+    match fields.optional("taps", |node| decode_taps(decoder, node, with_taps)) {
+        Given::Value(kernel) => Some(kernel),
+        Given::Absent => Some(with_taps(default)),
+        Given::Bad => None,
+    }
+    .filter(|_| !rotated.is_bad())
+}
+
+/// The kernel with the number of taps that `node` says.
+fn decode_taps(decoder: &mut Decoder, node: &Node<'_>, with_taps: impl Fn(u32) -> Kernel) -> Option<Kernel> {
+    // Only a kernel that has taps comes here.
+    let counts = with_taps(1).tap_counts()?;
+    let kind = with_taps(1).kind_name();
+    let help = match with_taps(1) {
+        Kernel::Separable { .. } => {
+            "one tap is the pixel itself, the others lie in pairs around it; 17 is usual"
+        }
+        Kernel::ImportanceSampled { .. } => "17 to 33 are usual",
+        _ => "4 is the default; neighbours share their taps, so few do",
+    };
+    let kernel = ron::from_str::<u32>(node.text()).ok().map(with_taps);
+    if let Some(kernel) = kernel.filter(|kernel| kernel.refused_taps().is_none()) {
+        return Some(kernel);
+    }
+    if let Shape::Number(_) = node.shape() {
+        decoder.report(
+            Diagnostic::error(format!("`{kind}` with {} taps", shortened(node.text())))
+                .label(node.span(), format!("expected {counts}"))
+                .help(help),
+        );
+    } else {
+        decoder.wrong_type(node, "taps", &counts.to_string(), help);
+    }
+    None
+}
+
+fn decode_rejection(decoder: &mut Decoder, node: &Node<'_>) -> Option<Rejection> {
+    const POLICIES: [&str; 2] = ["Renormalized", "ReturnedToCentre"];
+    let entries = match node.shape() {
+        Shape::Struct(None, entries) => entries,
+        Shape::Tuple(None, nodes) if nodes.is_empty() => Vec::new(),
+        _ => {
+            let help = "write `rejection: (by_material: true, by_distance: true, by_normal: false, rejected: Renormalized)`";
+            decoder.wrong_type(node, "rejection", "named fields", help);
+            return None;
+        }
+    };
+    let known = ["by_material", "by_distance", "by_normal", "rejected"];
+    let fields = decoder.fields("`rejection`", head(None, node), entries, &known);
+    let default = Rejection::default();
+    let mut truth = |name, default: bool| {
+        let given = fields.optional(name, |node| decoder.truth(node, name));
+        if given.is_absent() { Some(default) } else { given.value().copied() }
+    };
+    let by_material = truth("by_material", default.by_material);
+    let by_distance = truth("by_distance", default.by_distance);
+    let by_normal = truth("by_normal", default.by_normal);
+    let rejected = fields.optional("rejected", |node| match node.shape() {
+        Shape::Name(name) if !POLICIES.contains(&name.text) => {
+            unknown_word(decoder, &name, "policy", &POLICIES);
+            None
+        }
+        _ => Some(match choice(decoder, node, "rejected", &POLICIES)? {
+            "Renormalized" => Rejected::Renormalized,
+            _ => Rejected::ReturnedToCentre,
+        }),
+    });
+    Some(Rejection {
+        by_material: by_material?,
+        by_distance: by_distance?,
+        by_normal: by_normal?,
+        rejected: if rejected.is_absent() { default.rejected } else { *rejected.value()? },
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::source::SourceMap;
+    use crate::syntax;
+
+    /// The choices that a text makes, or the first error in it: message, label and the text that it points at.
+    fn decoded(text: &str) -> Result<(Kernel, Rejection), [String; 3]> {
+        let file = SourceMap::new().add("set.ron", text);
+        let document = syntax::parse(file, text).unwrap_or_else(|error| panic!("{}", error.message));
+        let mut decoder = Decoder::default();
+        let set = decode_set_file(&mut decoder, &document);
+        match decoder.finish(&Span::new(file, 0..text.len())).into_iter().next() {
+            Some(error) => {
+                assert!(!error.help.is_empty(), "no remedy: {}", error.message);
+                let (span, label) = error.primary.expect("an error in a file has a place");
+                Err([error.message, label, text[span.range].to_owned()])
+            }
+            None => {
+                let set = set.expect("no error");
+                Ok((
+                    set.kernel.value().copied().unwrap_or_default(),
+                    set.rejection.value().copied().unwrap_or_default(),
+                ))
+            }
+        }
+    }
+
+    fn kernel(text: &str) -> Result<Kernel, [String; 3]> {
+        decoded(&format!("MaterialSet(kernel: {text})")).map(|(kernel, _)| kernel)
+    }
+
+    #[test]
+    fn every_kernel_can_be_written() {
+        for (text, expected) in [
+            ("ImportanceSampled(taps: 33)", Kernel::ImportanceSampled { taps: 33 }),
+            ("ImportanceSampled", Kernel::ImportanceSampled { taps: 17 }),
+            ("Separable(taps: 11, rotated: true)", Kernel::Separable { taps: 11, rotated: true }),
+            ("Separable(rotated: false)", Kernel::Separable { taps: 17, rotated: false }),
+            ("Separable()", Kernel::Separable { taps: 17, rotated: false }),
+            ("Interleaved(taps: 64)", Kernel::Interleaved { taps: 64 }),
+            ("Interleaved", Kernel::default()),
+            ("Dense", Kernel::Dense),
+            ("Dense()", Kernel::Dense),
+        ] {
+            assert_eq!(kernel(text), Ok(expected), "{text}");
+        }
+        // Whatever kernel there is has a name here.
+        assert!(KERNELS.iter().all(|name| kernel(name).is_ok_and(|kernel| kernel.kind_name() == *name)));
+    }
+
+    #[test]
+    fn what_is_not_written_has_its_default() {
+        let defaults = Ok((Kernel::default(), Rejection::default()));
+        for text in ["MaterialSet", "MaterialSet()", "MaterialSet(version: 1)", "MaterialSet(rejection: ())"]
+        {
+            assert_eq!(decoded(text), defaults, "{text}");
+        }
+        let some = decoded("MaterialSet(rejection: (by_normal: true, rejected: ReturnedToCentre))");
+        let rejected = Rejected::ReturnedToCentre;
+        let expected = Rejection { by_normal: true, rejected, ..Rejection::default() };
+        assert_eq!(some, Ok((Kernel::default(), expected)));
+        let none = decoded("MaterialSet(rejection: (by_material: false, by_distance: false))");
+        let expected = Rejection { by_material: false, by_distance: false, ..Rejection::default() };
+        assert_eq!(none, Ok((Kernel::default(), expected)));
+    }
+
+    #[test]
+    fn taps_out_of_range_are_refused_where_they_stand() {
+        for (text, label, place) in [
+            ("Interleaved(taps: 0)", "expected a whole number from 1 to 64", "0"),
+            ("Interleaved(taps: 65)", "expected a whole number from 1 to 64", "65"),
+            ("Interleaved(taps: 2.5)", "expected a whole number from 1 to 64", "2.5"),
+            ("Interleaved(taps: -4)", "expected a whole number from 1 to 64", "-4"),
+            ("Interleaved(taps: 99999999999)", "expected a whole number from 1 to 64", "99999999999"),
+            ("ImportanceSampled(taps: 4097)", "expected a whole number from 1 to 4096", "4097"),
+            ("Separable(taps: 16)", "expected an odd number from 3 to 65", "16"),
+            ("Separable(taps: 1)", "expected an odd number from 3 to 65", "1"),
+            ("Separable(taps: 67)", "expected an odd number from 3 to 65", "67"),
+        ] {
+            let [_, found, at] = kernel(text).expect_err(text);
+            assert_eq!((found.as_str(), at.as_str()), (label, place), "{text}");
+        }
+    }
+
+    #[test]
+    fn what_is_no_kernel_is_refused() {
+        for (text, message) in [
+            ("Interleavd(taps: 4)", "unknown kernel `Interleavd`"),
+            ("Gaussian", "unknown kernel `Gaussian`"),
+            ("\"Dense\"", "`kernel` has the wrong type"),
+            ("4", "`kernel` has the wrong type"),
+            ("Interleaved(4)", "the fields of `Interleaved` have no names"),
+            ("Interleaved(tap: 4)", "unknown field `tap`"),
+            ("Interleaved(rotated: true)", "unknown field `rotated`"),
+            ("Dense(taps: 4)", "unknown field `taps`"),
+            ("Separable(rotated: 1)", "`rotated` has the wrong type"),
+            ("Separable(taps: \"17\")", "`taps` has the wrong type"),
+        ] {
+            let [found, _, _] = kernel(text).expect_err(text);
+            assert_eq!(found, message, "{text}");
+        }
+    }
+
+    #[test]
+    fn what_is_no_rejection_is_refused() {
+        for (text, message) in [
+            ("true", "`rejection` has the wrong type"),
+            ("(by_material: Yes)", "`by_material` has the wrong type"),
+            ("(by_depth: true)", "unknown field `by_depth`"),
+            ("(rejected: Renormalised)", "unknown policy `Renormalised`"),
+        ] {
+            let [found, _, _] = decoded(&format!("MaterialSet(rejection: {text})")).expect_err(text);
+            assert_eq!(found, message, "{text}");
+        }
+    }
+
+    #[test]
+    fn a_file_from_the_future_is_not_misread() {
+        let [message, _, _] = decoded("MaterialSet(version: 2, kernel: Unheard)").expect_err("version 2");
+        assert_eq!(message, "this file is written for schema version 2");
+    }
+}

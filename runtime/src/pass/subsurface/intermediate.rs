@@ -1,0 +1,67 @@
+//! What the first stage of a kernel leaves for the second.
+
+use crate::error::SizeError;
+use crate::kernel_kind::KernelKind;
+use crate::target::{Extent, Target};
+
+/// A texture between two stages.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Intermediate {
+    pub(super) format: wgpu::TextureFormat,
+    /// Pixels of the frame along each side of a texel; 0 for a texture of one texel.
+    side: u32,
+    label: &'static str,
+}
+
+impl Intermediate {
+    /// A texture of one texel.
+    pub(super) const fn single(format: wgpu::TextureFormat, label: &'static str) -> Self {
+        Self { format, side: 0, label }
+    }
+
+    /// The texture for frames of `size`.
+    pub(super) fn target(
+        &self,
+        device: &wgpu::Device,
+        size: Extent,
+        filled: wgpu::TextureUsages,
+    ) -> Result<Target, SizeError> {
+        let size = match self.side {
+            0 => Extent::new(1, 1),
+            side => Extent::new(size.width.div_ceil(side), size.height.div_ceil(side)),
+        };
+        Target::filled_by(device, size, self.format, filled, self.label)
+    }
+}
+
+/// The textures of a kernel, in the order in which shaders name them.
+///
+/// Per pixel of the frame `Interleaved` takes (16 + 8)/4 bytes, and 8 more on the compute path; `Separable` takes 8.
+pub(super) fn intermediates(kind: KernelKind) -> &'static [Intermediate] {
+    match kind {
+        KernelKind::Interleaved => &[
+            Intermediate {
+                format: wgpu::TextureFormat::Rgba32Uint,
+                side: 2,
+                label: "SubsurfacePass far field of blocks",
+            },
+            Intermediate {
+                format: wgpu::TextureFormat::Rg32Uint,
+                side: 2,
+                label: "SubsurfacePass rings of blocks",
+            },
+        ],
+        KernelKind::Separable => &[Intermediate {
+            format: wgpu::TextureFormat::Rg32Uint,
+            side: 1,
+            label: "SubsurfacePass first axis",
+        }],
+        KernelKind::ImportanceSampled | KernelKind::Dense => &[],
+    }
+}
+
+/// The pixels that the first stage of a kernel packs for the second on the compute path.
+pub(super) fn packed_pixels(kind: KernelKind) -> Intermediate {
+    let side = if kind == KernelKind::Interleaved { 1 } else { 0 };
+    Intermediate { format: wgpu::TextureFormat::Rg32Uint, side, label: "SubsurfacePass packed pixels" }
+}

@@ -1,0 +1,104 @@
+//! The debug views show something, of every kernel.
+
+use crate::buffers::{Buffers, DISTANCE_MM, noise};
+use crate::setup::{Description, Diffuser, KERNELS, PATHS};
+use subsurface_codegen::Kernel;
+use subsurface_runtime::{DebugView, Path, SubsurfaceView};
+
+const SIZE: [u32; 2] = [70, 52];
+const TILE_SIDE: u32 = 16;
+
+/// A surface that comes nearer to the right, with a hole and empty tiles.
+fn scene() -> Buffers {
+    Buffers::plane(SIZE, 0)
+        .lit(|x, y| [0, 1, 2].map(|salt| noise(x / 3, y / 3, salt)))
+        .covered(|x, y| {
+            let is_hole = x < 33 && y < 20 || x.abs_diff(50) + y.abs_diff(40) < 8;
+            if is_hole { -1.0 } else { 0.0 }
+        })
+        // From where the filter is below a pixel to where it is beyond a hundred.
+        .distant(|x, _| 6.0 * DISTANCE_MM * (-0.08 * x as f32).exp())
+}
+
+#[test]
+fn every_view_shows_something_of_every_kernel() {
+    let buffers = scene();
+    let view = SubsurfaceView::perspective_distances(0.5, SIZE[1]);
+    for kernel in KERNELS {
+        let description = Description::pair(kernel);
+        for path in PATHS {
+            let mut diffuser = Diffuser::new(&description, path);
+            let plain = diffuser.diffuse(&view, &buffers);
+            for debug_view in DebugView::ALL {
+                let picture = diffuser.show(debug_view, &view, &buffers);
+                let context = format!("{kernel}, {path:?}, {}", debug_view.name());
+                let in_range = picture.iter().flatten().all(|value| (0.0..=1.0).contains(value));
+                assert!(in_range, "{context}: a colour is none");
+                let translucent: Vec<_> = (0..picture.len())
+                    .filter(|index| buffers.surface[*index][3] >= 0.0)
+                    .map(|index| picture[index])
+                    .collect();
+                let varies = translucent.iter().any(|pixel| *pixel != translucent[0]);
+                // Dense has no budget that a footprint could be below: its taps are beyond the scale everywhere.
+                let is_beyond = kernel == Kernel::Dense && debug_view == DebugView::Taps;
+                assert!(varies || is_beyond, "{context}: one colour");
+            }
+            assert!(diffuser.diffuse(&view, &buffers) == plain, "{kernel}, {path:?}: the view stays on");
+        }
+    }
+}
+
+#[test]
+fn tiles_are_marked_where_a_pixel_scatters() {
+    let buffers = scene();
+    let view = SubsurfaceView::perspective_distances(0.5, SIZE[1]);
+    for kernel in KERNELS {
+        let mut diffuser = Diffuser::new(&Description::pair(kernel), Path::Compute);
+        let picture = diffuser.show(DebugView::Tiles, &view, &buffers);
+        let mut seen = [false; 2];
+        for y in 0..SIZE[1] {
+            for x in 0..SIZE[0] {
+                // The first row and column of a tile are its border.
+                if x % TILE_SIDE == 0 || y % TILE_SIDE == 0 {
+                    continue;
+                }
+                let (left, top) = (x - x % TILE_SIDE, y - y % TILE_SIDE);
+                let is_listed = (top..(top + TILE_SIDE).min(SIZE[1])).any(|y| {
+                    (left..(left + TILE_SIDE).min(SIZE[0]))
+                        .any(|x| buffers.surface[buffers.index(x, y)][3] >= 0.0)
+                });
+                let [_, green, blue, _] = picture[buffers.index(x, y)];
+                assert_eq!(green > blue, is_listed, "{kernel}, ({x}, {y}): green {green}, blue {blue}");
+                seen[usize::from(is_listed)] = true;
+            }
+        }
+        assert_eq!(seen, [true; 2], "the scene has tiles of both kinds");
+    }
+}
+
+#[test]
+fn the_filter_radius_grows_as_the_surface_comes_near() {
+    let buffers = scene();
+    let view = SubsurfaceView::perspective_distances(0.5, SIZE[1]);
+    for kernel in KERNELS {
+        let mut diffuser = Diffuser::new(&Description::pair(kernel), Path::Compute);
+        let picture = diffuser.show(DebugView::FilterRadius, &view, &buffers);
+        let heat: Vec<f32> = (0..SIZE[0]).map(|x| picture[buffers.index(x, 25)][..3].iter().sum()).collect();
+        assert!(heat.windows(2).all(|pair| pair[0] <= pair[1]), "{kernel}: {heat:?}");
+        assert!(heat[0] + 0.2 < heat[SIZE[0] as usize - 1], "{kernel}: {heat:?}");
+    }
+}
+
+#[test]
+fn what_is_rejected_is_drawn_at_the_silhouette() {
+    let buffers = Buffers::plane(SIZE, 0).covered(|x, _| if x < 35 { 0.0 } else { -1.0 });
+    for kernel in KERNELS {
+        let mut diffuser = Diffuser::new(&Description::pair(kernel), Path::Compute);
+        let picture =
+            diffuser.show(DebugView::RejectedEnergy, &SubsurfaceView::orthographic_distances(0.3), &buffers);
+        let heat =
+            |x: u32| -> f32 { (18..34).flat_map(|y| picture[buffers.index(x, y)][..3].to_vec()).sum() };
+        // Half of the light at the border would come from beyond it; inside, some would from beyond the frame.
+        assert!(heat(34) > 2.0 * heat(17), "{kernel}: {} at the border, {} inside", heat(34), heat(17));
+    }
+}

@@ -1,0 +1,267 @@
+//! Kernels under test, and the pass that runs them.
+
+use std::sync::{LazyLock, Mutex};
+
+use crate::buffers::Buffers;
+use crate::gpu::{Gpu, kernel, model, stems, table_files};
+use subsurface_codegen::{Compiler, Kernel, OutputFormat, Rejection};
+use subsurface_profile::{Channel, Length, Medium, RadialProfile};
+use subsurface_runtime::{
+    DebugView, Extent, GBuffer, Path, SubsurfaceInputs, SubsurfaceKernel, SubsurfacePass, SubsurfaceView,
+    wgpu,
+};
+
+pub(crate) const MEAN_FREE_PATH_MM: [f64; 3] = [1.3, 0.95, 0.67];
+pub(crate) const SURFACE_ALBEDO: [f64; 3] = [0.8, 0.6, 0.4];
+
+/// The profile of materials that name none: what stands for all where kernels, not profiles, are tested.
+pub(crate) const DEFAULT_STEM: &str = "two_exponential_dipole_searchlight";
+
+/// Taps of the kernels as their papers use them; the default of the fourth.
+pub(crate) const KERNELS: [Kernel; 4] = [
+    Kernel::ImportanceSampled { taps: 17 },
+    Kernel::Separable { taps: 17, rotated: false },
+    Kernel::Interleaved { taps: 4 },
+    Kernel::Dense,
+];
+
+/// Both paths.
+pub(crate) const PATHS: [Path; 2] = [Path::Compute, Path::Fragment];
+
+/// What the sets differ by.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Description {
+    pub(crate) kernel: Kernel,
+    pub(crate) rejection: Rejection,
+    /// Profiles of the materials, whose numbers are their places here; sorted.
+    pub(crate) stems: Vec<&'static str>,
+    /// Factor on the mean free path of the second material and of all after it.
+    pub(crate) length_factor: f64,
+}
+
+impl Description {
+    /// A material of every profile.
+    pub(crate) fn all_profiles(kernel: Kernel) -> Self {
+        let mut stems = stems();
+        stems.sort_unstable();
+        Self { kernel, rejection: Rejection::default(), stems, length_factor: 1.0 }
+    }
+
+    /// The same, or fewer where a software driver would take minutes: a material of every model for sums over all
+    /// pixels, whose cost does not depend on a model's coefficients.
+    pub(crate) fn affordable(kernel: Kernel) -> Self {
+        let every_model = [
+            "burley_searchlight",
+            "exponential_dipole_searchlight",
+            "gaussian_skin",
+            "liang_2023",
+            "tabulated",
+            "two_exponential_dipole_searchlight",
+        ];
+        let all = Self::all_profiles(kernel);
+        if kernel == Kernel::Dense { Self { stems: every_model.to_vec(), ..all } } else { all }
+    }
+
+    /// All profiles, or a pair where software drivers compile for half a minute what the other path and the comparison of
+    /// both cover.
+    pub(crate) fn on_path(kernel: Kernel, path: Path) -> Self {
+        if (kernel, path) == (Kernel::Dense, Path::Fragment) {
+            Self::pair(kernel)
+        } else {
+            Self::all_profiles(kernel)
+        }
+    }
+
+    /// Two materials of the default profile.
+    pub(crate) fn pair(kernel: Kernel) -> Self {
+        let stems = vec![DEFAULT_STEM; 2];
+        Self { kernel, rejection: Rejection::default(), stems, length_factor: 1.0 }
+    }
+
+    /// The compiler of the set.
+    pub(crate) fn compiler(&self) -> Compiler {
+        let materials = self.stems.iter().enumerate().map(|(number, stem)| {
+            let factor = if number == 0 { 1.0 } else { self.length_factor };
+            // Materials are numbered by name.
+            (format!("material_{number:02}.ron"), material(stem, factor))
+        });
+        Compiler::from_memory(materials.chain(table_files()))
+            .kernel(self.kernel)
+            .rejection(self.rejection)
+            .output_format(OutputFormat::Rgba32Float)
+    }
+
+    /// The kernel of the set; each is compiled once in the test program.
+    pub(crate) fn compile(&self) -> &'static SubsurfaceKernel {
+        static COMPILED: LazyLock<Mutex<Vec<(Description, &'static SubsurfaceKernel)>>> =
+            LazyLock::new(Mutex::default);
+        // A test that failed while it compiled leaves a list that still holds.
+        let mut compiled = COMPILED.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+        if let Some((_, known)) = compiled.iter().find(|(description, _)| description == self) {
+            return known;
+        }
+        let compilation = self.compiler().compile().unwrap_or_else(|report| panic!("{report}"));
+        let made: &'static SubsurfaceKernel = Box::leak(Box::new(kernel(&compilation)));
+        compiled.push((self.clone(), made));
+        made
+    }
+}
+
+/// The file of a material.
+fn material(stem: &str, length_factor: f64) -> String {
+    let length = match model(stem).length() {
+        Length::DiffuseMeanFreePath => "diffuse_mean_free_path_mm",
+        Length::MeanFreePath => "mean_free_path_mm",
+    };
+    let [lr, lg, lb] = MEAN_FREE_PATH_MM.map(|length| length * length_factor);
+    let [ar, ag, ab] = SURFACE_ALBEDO;
+    format!(
+        "Material(profile: \"{stem}\", {length}: ({lr:?}, {lg:?}, {lb:?}), surface_albedo: ({ar}, {ag}, {ab}))"
+    )
+}
+
+/// The profiles of the three channels of a material, in f64.
+pub(crate) fn profiles(stem: &str) -> [Box<dyn RadialProfile>; 3] {
+    let model = model(stem);
+    Channel::ALL.map(|channel| {
+        let medium = Medium::new(SURFACE_ALBEDO[channel.index()], MEAN_FREE_PATH_MM[channel.index()]);
+        model.profile(medium.expect("in the domain"), channel).expect("a published model")
+    })
+}
+
+/// Radius in mm that holds `quantile` of the widest channel's light.
+pub(crate) fn widest_radius_mm(stem: &str, quantile: f64) -> f64 {
+    profiles(stem).iter().map(|profile| profile.filter_radius(quantile)).fold(0.0, f64::max)
+}
+
+/// The device of this test program: pipelines are compiled for it once.
+pub(crate) fn shared_gpu() -> &'static Gpu {
+    static SHARED: LazyLock<Gpu> = LazyLock::new(Gpu::open);
+    &SHARED
+}
+
+/// A pass that no test uses at the moment, with what it was made for.
+type IdlePass = (Description, Path, SubsurfacePass);
+
+/// Passes of the shared device: software drivers take seconds to compile a kernel of all profiles.
+fn idle_passes() -> std::sync::MutexGuard<'static, Vec<IdlePass>> {
+    static IDLE: Mutex<Vec<IdlePass>> = Mutex::new(Vec::new());
+    // A test that failed meanwhile leaves a list that still holds.
+    IDLE.lock().unwrap_or_else(|poisoned| poisoned.into_inner())
+}
+
+/// A pass, and the device it runs on.
+pub(crate) struct Diffuser {
+    gpu: &'static Gpu,
+    /// Always there until it is dropped.
+    pass: Option<SubsurfacePass>,
+    /// What the pass was made for, if others may use it later.
+    made_for: Option<(Description, Path)>,
+}
+
+impl Drop for Diffuser {
+    fn drop(&mut self) {
+        // What a failed test leaves may be in any state.
+        if let (Some((description, path)), Some(pass), false) =
+            (self.made_for.take(), self.pass.take(), std::thread::panicking())
+        {
+            idle_passes().push((description, path, pass));
+        }
+    }
+}
+
+impl Diffuser {
+    /// A pass to `Rgba32Float` without a stencil, on the shared device.
+    pub(crate) fn new(description: &Description, path: Path) -> Self {
+        let made_for = Some((description.clone(), path));
+        let mut idle = idle_passes();
+        let known = idle.iter().position(|(of, on, _)| of == description && *on == path);
+        let known = known.map(|index| idle.swap_remove(index).2);
+        drop(idle);
+        let pass = known.unwrap_or_else(|| Self::make(description, None, path));
+        Self { gpu: shared_gpu(), pass: Some(pass), made_for }
+    }
+
+    /// A pass that no test has used.
+    pub(crate) fn unused(description: &Description, path: Path) -> Self {
+        Self::of_pass(shared_gpu(), Self::make(description, None, path))
+    }
+
+    /// A pass of the fragment path with a stencil.
+    pub(crate) fn with_stencil(description: &Description) -> Self {
+        let pass = Self::make(description, Some(GBuffer::DEPTH_STENCIL_FORMAT), Path::Fragment);
+        Self::of_pass(shared_gpu(), pass)
+    }
+
+    /// A pass that was made by a test.
+    pub(crate) fn of_pass(gpu: &'static Gpu, pass: SubsurfacePass) -> Self {
+        Self { gpu, pass: Some(pass), made_for: None }
+    }
+
+    fn make(description: &Description, stencil: Option<wgpu::TextureFormat>, path: Path) -> SubsurfacePass {
+        let (gpu, kernel) = (shared_gpu(), description.compile());
+        let format = wgpu::TextureFormat::Rgba32Float;
+        gpu.validated(|| SubsurfacePass::with_path(&gpu.device, kernel, format, stencil, path))
+            .unwrap_or_else(|error| panic!("{error}"))
+    }
+
+    /// The pass.
+    pub(crate) fn pass(&mut self) -> &mut SubsurfacePass {
+        self.pass.as_mut().expect("dropped last")
+    }
+
+    /// The picture of a frame.
+    pub(crate) fn diffuse(&mut self, view: &SubsurfaceView, buffers: &Buffers) -> Vec<[f32; 4]> {
+        self.diffuse_with_stencil(view, buffers, None)
+    }
+
+    /// A debug view of a frame.
+    pub(crate) fn show(
+        &mut self,
+        debug_view: DebugView,
+        view: &SubsurfaceView,
+        buffers: &Buffers,
+    ) -> Vec<[f32; 4]> {
+        self.pass().set_debug_view(Some(debug_view));
+        let picture = self.diffuse(view, buffers);
+        self.pass().set_debug_view(None);
+        picture
+    }
+
+    /// The picture of a frame; `depth_stencil` as the pass was made.
+    pub(crate) fn diffuse_with_stencil(
+        &mut self,
+        view: &SubsurfaceView,
+        buffers: &Buffers,
+        depth_stencil: Option<&wgpu::TextureView>,
+    ) -> Vec<[f32; 4]> {
+        let gpu = self.gpu;
+        let pass = self.pass();
+        gpu.validated(|| {
+            let uploaded = buffers.upload(gpu);
+            let inputs = SubsurfaceInputs {
+                irradiance: &uploaded.irradiance,
+                surface: &uploaded.surface,
+                depth: &uploaded.depth,
+                depth_stencil,
+                mean_free_path_scale: uploaded.scale.as_ref(),
+            };
+            let [width, height] = buffers.size;
+            pass.resize(&gpu.device, Extent::new(width, height), &inputs).expect("a small frame");
+            pass.prepare(&gpu.queue, view);
+            let mut encoder = gpu.device.create_command_encoder(&Default::default());
+            pass.encode(&mut encoder);
+            gpu.queue.submit([encoder.finish()]);
+            bytemuck::pod_collect_to_vec(&gpu.read_texture(&pass.output().expect("resized above").texture))
+        })
+    }
+}
+
+/// Peak signal-to-noise ratio of two pictures in dB, over red, green and blue; the peak is the reference's largest value.
+pub(crate) fn psnr(picture: &[[f32; 4]], reference: &[[f32; 4]]) -> f64 {
+    let colours = |pixel: &[f32; 4]| [pixel[0], pixel[1], pixel[2]].map(f64::from);
+    let peak = reference.iter().flat_map(colours).fold(0.0, f64::max);
+    let pairs = picture.iter().flat_map(colours).zip(reference.iter().flat_map(colours));
+    let squares: f64 = pairs.map(|(a, b)| (a - b).powi(2)).sum();
+    10.0 * (peak * peak * 3.0 * reference.len() as f64 / squares).log10()
+}

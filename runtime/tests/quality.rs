@@ -1,0 +1,212 @@
+//! The error that the compiler states, against what the device draws.
+//!
+//! The compiler tries kernels on the processor, on squares of pixels that lie here and there in each picture. Here the
+//! device draws whole pictures, with the feature at every phase of blocks and lattices, and is compared with an exact result that
+//! comes from elsewhere: the edge-spread function of the profile crate, or the kernel that sums every pixel.
+
+mod gpu;
+
+use gpu::Gpu;
+use subsurface_codegen::{Compilation, Compiler, Kernel, OutputFormat, PictureReport};
+use subsurface_profile::{Channel, EdgeSpread, Medium, Model, RadialProfile};
+use subsurface_runtime::{Extent, SubsurfaceInputs, SubsurfacePass, SubsurfaceView, wgpu};
+
+const LENGTH_MM: [f64; 3] = [1.3, 0.95, 0.67];
+const SURFACE_ALBEDO: [f64; 3] = [0.83, 0.64, 0.55];
+
+/// Period of blocks and lattices on the screen, pixels.
+const PERIOD: i32 = 4;
+
+/// Differences between the statement and the pictures: the statement's squares are a sample of their pixels (measured:
+/// within 14 %), and stages keep nine bits, which is 1e-3 of the white level.
+const TOLERANCE: (f64, f64) = (0.2, 1e-3);
+
+/// A set whose file says `choice`.
+fn compiled(choice: &str) -> Compilation {
+    let skin = format!(
+        "Material(profile: \"two_exponential_dipole_searchlight\", mean_free_path_mm: ({}, {}, {}), \
+         surface_albedo: ({}, {}, {}))",
+        LENGTH_MM[0], LENGTH_MM[1], LENGTH_MM[2], SURFACE_ALBEDO[0], SURFACE_ALBEDO[1], SURFACE_ALBEDO[2]
+    );
+    let files = [("skin.ron", skin), ("set.ron", format!("MaterialSet({choice})"))];
+    let compiler = Compiler::from_memory(files).without_gbuffer().output_format(OutputFormat::Rgba32Float);
+    compiler.compile().unwrap_or_else(|report| panic!("{report}"))
+}
+
+fn profiles() -> [Box<dyn RadialProfile>; 3] {
+    let model = Model::published("two_exponential_dipole_searchlight").expect("it is published");
+    Channel::ALL.map(|channel| {
+        let index = channel.index();
+        let medium = Medium::new(SURFACE_ALBEDO[index], LENGTH_MM[index]).expect("a medium");
+        model.profile(medium, channel).expect("a profile")
+    })
+}
+
+/// Mean radius in mm of the widest channel, over all but the last 1e-4 of its light, as curves hold it.
+fn mean_radius_mm() -> f64 {
+    let red = &profiles()[0];
+    (0..9999).map(|place| red.sample_radius((f64::from(place) + 0.5) / 1e4)).sum::<f64>() / 9999.0
+}
+
+/// What a picture shows: irradiance, and depth in pixels, by place about its feature.
+#[derive(Clone, Copy)]
+struct Picture {
+    name: &'static str,
+    light: fn(i32, i32, f64) -> bool,
+    depth: fn(i32) -> f64,
+}
+
+const PICTURES: [Picture; 4] = [
+    Picture { name: "step edge", light: |x, _, _| x >= 0, depth: |_| 0.0 },
+    Picture { name: "line", light: |x, _, _| x == 0, depth: |_| 0.0 },
+    Picture {
+        name: "disc",
+        light: |x, y, mean| f64::from(x * x + y * y) <= (1.5 * mean).powi(2),
+        depth: |_| 0.0,
+    },
+    Picture { name: "crease", light: |x, _, _| x >= 0, depth: |x| (f64::from(x) + 0.5).abs() },
+];
+
+/// A picture on the screen: its feature at `centre` in a square of `side` pixels.
+struct Drawn {
+    texels: Vec<[f32; 4]>,
+    side: i32,
+    centre: [i32; 2],
+}
+
+impl Drawn {
+    fn new(
+        gpu: &Gpu,
+        kernel: &Compilation,
+        picture: Picture,
+        mean: f64,
+        side: i32,
+        centre: [i32; 2],
+    ) -> Self {
+        let pixel_mm = mean_radius_mm() / mean;
+        let size = [side as u32; 2];
+        let place = |x: u32, y: u32| (x as i32 - centre[0], y as i32 - centre[1]);
+        let irradiance = gpu.rgba32(size, |x, y| {
+            let (x, y) = place(x, y);
+            [f32::from(u8::from((picture.light)(x, y, mean))); 4]
+        });
+        let albedo = SURFACE_ALBEDO.map(|albedo| albedo as f32);
+        let surface = gpu.rgba32(size, |_, _| [albedo[0], albedo[1], albedo[2], 0.0]);
+        let depth = gpu.r32(size, |x, y| {
+            let (x, _) = place(x, y);
+            (1000.0 + pixel_mm * (picture.depth)(x)) as f32
+        });
+        let inputs = SubsurfaceInputs {
+            irradiance: &irradiance,
+            surface: &surface,
+            depth: &depth,
+            depth_stencil: None,
+            mean_free_path_scale: None,
+        };
+        let format = wgpu::TextureFormat::Rgba32Float;
+        let texels = gpu.validated(|| {
+            let mut pass = SubsurfacePass::new(&gpu.device, &gpu::kernel(kernel), format, None);
+            pass.resize(&gpu.device, Extent::new(size[0], size[1]), &inputs).expect("the size is legal");
+            pass.prepare(&gpu.queue, &SubsurfaceView::orthographic_distances(pixel_mm as f32));
+            let mut encoder = gpu.device.create_command_encoder(&Default::default());
+            pass.encode(&mut encoder);
+            gpu.queue.submit([encoder.finish()]);
+            gpu.read_texture(&pass.output().expect("resized").texture)
+        });
+        Self { texels: bytemuck::pod_collect_to_vec(&texels), side, centre }
+    }
+
+    /// The pixel at a place about the feature.
+    fn at(&self, x: i32, y: i32) -> [f64; 3] {
+        let texel = self.texels[((y + self.centre[1]) * self.side + x + self.centre[0]) as usize];
+        [texel[0], texel[1], texel[2]].map(f64::from)
+    }
+}
+
+/// Root mean squares over a region about the feature, which is drawn at every phase: the largest of the channels.
+fn error(pictures: &[Drawn], reach: [i32; 2], exact: impl Fn(i32, i32) -> [f64; 3]) -> f64 {
+    let mut squares = [0.0; 3];
+    let mut count = 0.0;
+    for drawn in pictures {
+        for (x, y) in (-reach[0]..reach[0]).flat_map(|x| (-reach[1]..reach[1]).map(move |y| (x, y))) {
+            let (found, exact) = (drawn.at(x, y), exact(x, y));
+            for channel in 0..3 {
+                squares[channel] += (found[channel] - exact[channel]).powi(2);
+            }
+            count += 1.0;
+        }
+    }
+    (squares.into_iter().fold(0.0, f64::max) / count).sqrt()
+}
+
+/// How far the compiler's squares of a period's side go where they have to cover this many pixels.
+fn region(reach: f64) -> i32 {
+    (2.0 * reach / f64::from(PERIOD)).ceil() as i32 * PERIOD / 2
+}
+
+fn stated(compilation: &Compilation, name: &str, mean: f64) -> PictureReport {
+    let report = compilation.quality.as_ref().expect("it was asked for");
+    let found = report.pictures.iter().find(|p| p.name == name && p.mean_radius_pixels == mean);
+    found.unwrap_or_else(|| panic!("no {name} at {mean} pixels")).clone()
+}
+
+fn assert_near(what: &str, kernel: Kernel, drawn: f64, stated: f64) {
+    let (share, least) = TOLERANCE;
+    assert!(
+        (drawn - stated).abs() <= (share * stated).max(least),
+        "{what}, {kernel}: {drawn}, stated {stated}"
+    );
+}
+
+/// Whatever each kernel is asked for, a number of taps comes out that has an error worth measuring.
+const CHOICES: [&str; 4] = [
+    "kernel: ImportanceSampled, quality: MaxError(0.08)",
+    "kernel: Separable, quality: MaxError(0.09)",
+    "kernel: Interleaved, quality: MaxError(0.06)",
+    "kernel: Interleaved, quality: MaxError(0.02)",
+];
+
+#[test]
+fn a_step_edge_has_the_error_that_is_stated() {
+    let gpu = Gpu::open();
+    let mean = 3.0;
+    let profiles = profiles();
+    let edges = [0, 1, 2].map(|channel: usize| EdgeSpread::new(&*profiles[channel]));
+    let pixel_mm = mean_radius_mm() / mean;
+    let reach = region(2.0 * mean + 3.0);
+    let exact: Vec<[f64; 3]> = (-reach..reach)
+        .map(|x| [0, 1, 2].map(|channel: usize| edges[channel].at((f64::from(x) + 0.5) * pixel_mm)))
+        .collect();
+    for choice in CHOICES {
+        let compilation = compiled(choice);
+        // Light from beyond the border is missing: 60 pixels hold all but 1e-3 of it.
+        let centre = |phase| [60 + phase, 60];
+        let pictures: Vec<Drawn> = (0..PERIOD)
+            .map(|phase| Drawn::new(&gpu, &compilation, PICTURES[0], mean, 126, centre(phase)))
+            .collect();
+        let drawn = error(&pictures, [reach, PERIOD / 2], |x, _| exact[(x + reach) as usize]);
+        assert_near("step edge", compilation.kernel, drawn, stated(&compilation, "step edge", mean).error);
+    }
+}
+
+#[test]
+fn small_pictures_have_the_errors_that_are_stated() {
+    let gpu = Gpu::open();
+    let mean = 1.0;
+    let dense = compiled("kernel: Dense");
+    let compilations = CHOICES.map(compiled);
+    for picture in PICTURES {
+        let reach = 2.0 * mean + 3.0 + if picture.name == "disc" { 1.5 * mean } else { 0.0 };
+        let reach = region(reach);
+        let across = if picture.name == "disc" { reach } else { PERIOD / 2 };
+        let exact = Drawn::new(&gpu, &dense, picture, mean, 54, [27, 27]);
+        for compilation in &compilations {
+            let pictures: Vec<Drawn> = (0..PERIOD)
+                .map(|phase| Drawn::new(&gpu, compilation, picture, mean, 60, [27 + phase, 27 + phase]))
+                .collect();
+            let drawn = error(&pictures, [reach, across], |x, y| exact.at(x, y));
+            let what = picture.name;
+            assert_near(what, compilation.kernel, drawn, stated(compilation, what, mean).error);
+        }
+    }
+}

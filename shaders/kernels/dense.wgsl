@@ -1,0 +1,78 @@
+// Every pixel within the filter radius, [L23] eq. (22) with a sum in place of an estimate: what the other kernels are
+// scored against.
+
+/// Share of the widest profile's light that the radius holds.
+const DENSE_QUANTILE: f32 = 0.999;
+
+/// Largest radius, pixels: beyond it light is renormalized, and the loops stay bounded.
+const DENSE_LARGEST_RADIUS: f32 = 256.0;
+
+/// Pixels around the centre, along each axis, whose share is integrated over their area.
+const DENSE_INTEGRATED: i32 = 2;
+
+/// Points per axis of that integral.
+const DENSE_POINTS: i32 = 4;
+
+/// Radius of the sum, pixels.
+fn dense_radius(point: SurfacePoint) -> i32 {
+    let radius_mm = curve_quantile(point.widest.curve, DENSE_QUANTILE).x;
+    return i32(ceil(min(radius_mm / point.pixel_mm, DENSE_LARGEST_RADIUS)));
+}
+
+/// Light of all pixels within the filter radius of the pixel `centre`, whose target is of `size`.
+fn gather_dense(point: SurfacePoint, centre: vec2i, size: vec2i) -> Gathered {
+    let radius = dense_radius(point);
+    let first = max(centre - radius, vec2i(0));
+    let last = min(centre + radius, size - 1);
+    var gathered = Gathered(vec3f(0.0), vec3f(0.0));
+    for (var y = first.y; y <= last.y; y += 1) {
+        for (var x = first.x; x <= last.x; x += 1) {
+            let apart = vec2i(x, y) - centre;
+            if dot(apart, apart) > radius * radius {
+                continue;
+            }
+            let pixel = input_pixel(vec2i(x, y));
+            if !accepts_material(point, pixel.material) {
+                continue;
+            }
+            let depth_mm = depth_difference_mm(point, pixel.distance_mm);
+            let normal_share = accepted_by_normal(point.normal, vec2i(x, y), pixel.distance_mm, point.span_mm);
+            let weight = normal_share * pixel_share(point, apart, depth_mm);
+            gathered = together(gathered, Gathered(weight * pixel.irradiance, weight));
+        }
+    }
+    return gathered;
+}
+
+/// Share of the light that a pixel `apart` from the centre and `depth_mm` away in depth sends there.
+fn pixel_share(point: SurfacePoint, apart: vec2i, depth_mm: f32) -> vec3f {
+    if all(apart == vec2i(0)) {
+        return centre_share(point);
+    }
+    let area = point.pixel_mm * point.pixel_mm;
+    if any(abs(apart) > vec2i(DENSE_INTEGRATED)) {
+        let squared_mm = area * f32(dot(apart, apart)) + depth_mm * depth_mm;
+        return area * channel_area_pdf(point.profiles, sqrt(squared_mm));
+    }
+    var share = vec3f(0.0);
+    for (var place = 0; place < DENSE_POINTS * DENSE_POINTS; place += 1) {
+        let within = vec2f(vec2i(place % DENSE_POINTS, place / DENSE_POINTS)) + 0.5;
+        let offset = vec2f(apart) + within / f32(DENSE_POINTS) - 0.5;
+        let squared_mm = area * dot(offset, offset) + depth_mm * depth_mm;
+        share += channel_area_pdf(point.profiles, sqrt(squared_mm));
+    }
+    return share * (area / f32(DENSE_POINTS * DENSE_POINTS));
+}
+
+/// Share of the centre's own pixel, a square: profiles diverge there, so it is summed over angles, where the integral
+/// over the radius is the CDF at the square's border: (4/π) ∫ cdf(½ / cos θ) dθ over θ in [0, π/4].
+fn centre_share(point: SurfacePoint) -> vec3f {
+    // Gauss–Legendre with four points: the CDF is smooth away from r = 0.
+    let nodes = vec4f(0.06943184, 0.33000948, 0.66999052, 0.93056816);
+    let weights = vec4f(0.17392742, 0.32607258, 0.32607258, 0.17392742);
+    let radii = 0.5 * point.pixel_mm / cos(nodes * (0.125 * TAU));
+    return weights.x * channel_radial_cdf(point.profiles, radii.x)
+        + weights.y * channel_radial_cdf(point.profiles, radii.y)
+        + weights.z * channel_radial_cdf(point.profiles, radii.z)
+        + weights.w * channel_radial_cdf(point.profiles, radii.w);
+}

@@ -1,0 +1,45 @@
+// What the kernels read of the inputs. A pass that links a kernel declares
+//
+//     fn input_pixel(position: vec2i) -> InputPixel       what a tap sees
+//     fn input_surface(position: vec2i) -> InputSurface   what lies there, lit or not
+//     fn curve_texel(row: i32, step: i32) -> vec4f        quantile curves of the profiles
+//
+// and so says where they come from.
+
+/// A pixel as a tap sees it.
+struct InputPixel {
+    /// Diffuse irradiance, finite and not negative.
+    irradiance: vec3f,
+    /// Distance along the view axis, mm.
+    distance_mm: f32,
+    /// Material number; NO_MATERIAL for a pixel that gives no light: background, or an irradiance that is not finite.
+    material: i32,
+}
+
+/// The surface that a pixel shows.
+struct InputSurface {
+    /// Distance along the view axis, mm; 0 where there is none.
+    distance_mm: f32,
+    /// Material number, or NO_MATERIAL for a pixel that does not scatter.
+    material: i32,
+}
+
+/// Irradiance above this counts as this: 4096 taps at the largest weight still add up to a finite f32.
+const LARGEST_IRRADIANCE: f32 = 1e30;
+
+/// A distance above this counts as this: squares stay finite, and every profile is 0 there.
+const LARGEST_DISTANCE_MM: f32 = 1e15;
+
+/// Irradiance without what is not finite or below 0.
+fn finite_irradiance(irradiance: vec3f) -> vec3f {
+    return select(vec3f(0.0), clamp(irradiance, vec3f(0.0), vec3f(LARGEST_IRRADIANCE)), is_finite_rgb(irradiance));
+}
+
+/// The surface of a texel of the surface target, at `distance_mm`.
+fn surface_of_texel(stored_material: f32, distance_mm: f32) -> InputSurface {
+    let material = material_number(stored_material, MATERIALS_IN_SET);
+    if material == NO_MATERIAL || distance_mm == 0.0 {
+        return InputSurface(0.0, NO_MATERIAL);
+    }
+    return InputSurface(min(distance_mm, LARGEST_DISTANCE_MM), material);
+}

@@ -1,0 +1,49 @@
+// Quantile curves of the profiles, which the compiler bakes: radii are read, not found by iteration.
+//
+// A curve holds the quantile radius Q at 64 steps of t, u = 1 − (1 − t)², in lengths of its material. It belongs to one
+// surface albedo; texels hold the curve of their row and of the next, so that one load gives both neighbours: (lower curve, its rise
+// to the next step, upper curve, its rise).
+
+/// Steps of a curve.
+const CURVE_STEPS: f32 = 64.0;
+
+/// Rows of a column of curves: what the smallest texture limit of WebGPU holds.
+const CURVE_ROWS: i32 = 8192;
+
+/// A place between two curves: (row of the lower one, fraction of the upper one, length in mm that scales radii).
+fn albedo_curve(surface: MaterialSurface, surface_albedo: f32, length_mm: f32) -> vec3f {
+    // Nodes are even in v: profiles widen ever faster as the surface albedo nears 1.
+    let v = 1.0 - sqrt(1.0 - clamp(surface_albedo, 0.0, 1.0));
+    let node = v * f32(surface.curve_count - 1u);
+    let lower = min(floor(node), f32(surface.curve_count) - 2.0);
+    return vec3f(f32(surface.first_curve) + lower, node - lower, length_mm);
+}
+
+/// The same for a model whose channels have a curve each, in mm, whatever the surface albedo.
+fn channel_curve(surface: MaterialSurface, channel: u32) -> vec3f {
+    return vec3f(f32(surface.first_curve + channel), 0.0, 1.0);
+}
+
+/// Place of texel `step` of row `row`.
+fn curve_place(row: i32, step: i32) -> vec2i {
+    return vec2i(row / CURVE_ROWS * i32(CURVE_STEPS) + step, row % CURVE_ROWS);
+}
+
+/// (radius in mm, its derivative by u) at the quantile `u` in [0, 1).
+///
+/// The curve is straight between its steps, so the derivative is the exact reciprocal of the density with which radii
+/// come: what is weighted by it is not biased by the steps.
+fn curve_quantile(curve: vec3f, u: f32) -> vec2f {
+    let root = sqrt(max(1.0 - u, 0.0));
+    let place = (1.0 - root) * CURVE_STEPS;
+    let step = min(floor(place), CURVE_STEPS - 1.0);
+    let texel = curve_texel(i32(curve.x), i32(step));
+    let start_and_rise = mix(texel.xy, texel.zw, curve.y);
+    let radius = start_and_rise.x + start_and_rise.y * (place - step);
+    // dr/du = dr/dt · dt/du, dt/du = 1 / (2 √(1 − u)).
+    let slope = start_and_rise.y * CURVE_STEPS * 0.5 / max(root, SMALLEST_ROOT);
+    return curve.z * vec2f(radius, slope);
+}
+
+/// Smallest √(1 − u): u = 1 − 2^-24 in f32.
+const SMALLEST_ROOT: f32 = 2.44140625e-4;

@@ -1,0 +1,166 @@
+/// A pixel of a block.
+struct BlockPixel {
+    surface: InputSurface,
+    /// Its texel of the surface target: surface albedo and material number.
+    surface_texel: vec4f,
+    /// Factor on the mean free path.
+    mean_free_path_scale: f32,
+}
+
+/// The pixel at `position`, which may lie outside of the target.
+fn block_pixel(position: vec2i) -> BlockPixel {
+    let surface = input_surface(position);
+    if surface.material == NO_MATERIAL {
+        return BlockPixel(surface, vec4f(0.0), 1.0);
+    }
+    return BlockPixel(surface, textureLoad(surface_texture, position, 0), mean_free_path_scale_at(position));
+}
+
+/// The pixels of a block, from left to right and from the top.
+struct BlockPixels {
+    a: BlockPixel,
+    b: BlockPixel,
+    c: BlockPixel,
+    d: BlockPixel,
+}
+
+/// The pixels of `block`.
+fn pixels_of_block(block: vec2i) -> BlockPixels {
+    let first = BLOCK_SIDE * block;
+    return BlockPixels(
+        block_pixel(first),
+        block_pixel(first + vec2i(1, 0)),
+        block_pixel(first + vec2i(0, 1)),
+        block_pixel(first + vec2i(1, 1)),
+    );
+}
+
+/// The first surface of two.
+fn first_surface(a: InputSurface, b: InputSurface) -> InputSurface {
+    if a.material == NO_MATERIAL {
+        return b;
+    }
+    return a;
+}
+
+/// 1 for a pixel of the block's surface `first`, 0 for another.
+fn membership(pixel: BlockPixel, first: InputSurface, span_mm: f32) -> f32 {
+    if pixel.surface.material != first.material {
+        return 0.0;
+    }
+    return sign(depth_agreement(pixel.surface.distance_mm, first.distance_mm, span_mm));
+}
+
+/// The pixels of a block that are of its first translucent pixel's material and depth, as one surface.
+fn block_of(block: vec2i, pixels: BlockPixels) -> Block {
+    let upper = first_surface(pixels.a.surface, pixels.b.surface);
+    let first = first_surface(upper, first_surface(pixels.c.surface, pixels.d.surface));
+    if first.material == NO_MATERIAL {
+        return Block(vec2f(0.0), NO_MATERIAL, 0.0, vec3f(0.0), 1.0);
+    }
+    let span = span_mm(subsurface_view, first.distance_mm);
+    let members = vec4f(
+        membership(pixels.a, first, span),
+        membership(pixels.b, first, span),
+        membership(pixels.c, first, span),
+        membership(pixels.d, first, span),
+    );
+    let shares = members / dot(members, vec4f(1.0));
+    let surface = material_table[first.material].surface;
+    let surface_albedo = shares.x * texel_surface_albedo(pixels.a.surface_texel, surface)
+        + shares.y * texel_surface_albedo(pixels.b.surface_texel, surface)
+        + shares.z * texel_surface_albedo(pixels.c.surface_texel, surface)
+        + shares.w * texel_surface_albedo(pixels.d.surface_texel, surface);
+    return Block(
+        vec2f(BLOCK_SIDE * block) + vec2f(shares.y + shares.w, shares.z + shares.w),
+        first.material,
+        dot(
+            shares,
+            vec4f(
+                pixels.a.surface.distance_mm,
+                pixels.b.surface.distance_mm,
+                pixels.c.surface.distance_mm,
+                pixels.d.surface.distance_mm,
+            ),
+        ),
+        surface_albedo,
+        dot(
+            shares,
+            vec4f(
+                pixels.a.mean_free_path_scale,
+                pixels.b.mean_free_path_scale,
+                pixels.c.mean_free_path_scale,
+                pixels.d.mean_free_path_scale,
+            ),
+        ),
+    );
+}
+
+/// What a block keeps for its pixels.
+fn texels_of_block(block: vec2i, pixels: BlockPixels) -> BlockTexels {
+    let surface = block_of(block, pixels);
+    if surface.material == NO_MATERIAL {
+        return BlockTexels(vec4u(0u), vec2u(0u));
+    }
+    let point = surface_point(
+        subsurface_view,
+        surface.position,
+        surface.material,
+        material_table[surface.material],
+        surface.distance_mm,
+        surface.surface_albedo,
+        surface.mean_free_path_scale,
+    );
+    return block_texels(block_light(subsurface_view, point, block), surface);
+}
+
+/// Taps per pixel of the far field.
+fn taps_at(point: SurfacePoint) -> f32 {
+    let pixels = u32(BLOCK_SIDE * BLOCK_SIDE);
+    return f32(footprint_taps(point, pixels * subsurface_view.taps)) / f32(pixels);
+}
+
+/// What the first stage keeps of a block.
+@fragment
+fn first_fragment(@builtin(position) position: vec4f) -> BlockTexels {
+    let block = vec2i(position.xy);
+    return texels_of_block(block, pixels_of_block(block));
+}
+
+/// Diffused irradiance of translucent pixels; every other pixel keeps its irradiance.
+@fragment
+fn subsurface_fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
+    let pixel = vec2i(position.xy);
+    let own = textureLoad(irradiance_texture, pixel, 0);
+    let surface = input_surface(pixel);
+    if surface.material == NO_MATERIAL {
+        return own;
+    }
+    let home = pixel / BLOCK_SIDE;
+    let side = (pixel % BLOCK_SIDE) * 2 - 1;
+    let fields = NearestFarFields(
+        load_far_field(intermediate_texture, home),
+        load_far_field(intermediate_texture, home + vec2i(side.x, 0)),
+        load_far_field(intermediate_texture, home + vec2i(0, side.y)),
+        load_far_field(intermediate_texture, home + side),
+    );
+    let ring = Ring(
+        input_pixel(pixel + vec2i(-1, 0)),
+        input_pixel(pixel + vec2i(1, 0)),
+        input_pixel(pixel + vec2i(0, -1)),
+        input_pixel(pixel + vec2i(0, 1)),
+        input_pixel(pixel + vec2i(-1, -1)),
+        input_pixel(pixel + vec2i(1, -1)),
+        input_pixel(pixel + vec2i(-1, 1)),
+        input_pixel(pixel + vec2i(1, 1)),
+    );
+    let shares = textureLoad(second_intermediate_texture, home, 0);
+    let diffused = diffuse_interleaved(
+        receiver_at(pixel, surface, own),
+        fields,
+        ring,
+        unpack_shared_exponent(shares.x),
+        unpack_shared_exponent(shares.y),
+    );
+    return vec4f(diffused, own.a);
+}

@@ -1,0 +1,100 @@
+/// What the first stage of the kernel left for the second, if it has two.
+@group(2) @binding(0) var intermediate_source: texture_2d<u32>;
+/// The rest of it, where one texel is too small.
+@group(2) @binding(1) var second_intermediate_source: texture_2d<u32>;
+/// Pixels that a first stage packed for the second.
+@group(2) @binding(2) var pixel_source: texture_2d<u32>;
+/// Where a first stage leaves four words.
+@group(2) @binding(3) var four_word_target: texture_storage_2d<rgba32uint, write>;
+/// Where a first stage leaves two words.
+@group(2) @binding(4) var two_word_target: texture_storage_2d<rg32uint, write>;
+/// Where a first stage packs pixels.
+@group(2) @binding(5) var pixel_target: texture_storage_2d<rg32uint, write>;
+/// Tiles that hold translucent pixels.
+@group(2) @binding(6) var<storage, read_write> tiles: TileList;
+/// Arguments of the indirect dispatch over the tiles.
+@group(2) @binding(7) var<storage, read_write> dispatch_arguments: DispatchArguments;
+/// The result.
+@group(2) @binding(8) var diffused_target: DiffusedTexture;
+
+/// Side of a tile, pixels.
+const TILE_SIDE: u32 = 16u;
+
+/// Largest number of workgroups along one axis that every device takes.
+const LARGEST_DISPATCH: u32 = 65535u;
+
+/// The tiles that later stages run over.
+struct TileList {
+    /// Number of tiles.
+    count: atomic<u32>,
+    /// Their places: TILE_LISTED, the row from bit 12 on, and the column. Zero behind the last.
+    places: array<u32>,
+}
+
+/// Bit that tells a tile from an entry that was not written.
+const TILE_LISTED: u32 = 0x80000000u;
+
+/// Workgroups of an indirect dispatch.
+struct DispatchArguments {
+    /// The number of tiles, up to LARGEST_DISPATCH.
+    x: atomic<u32>,
+    /// Rows of that many which hold all tiles; the last may be longer than the list.
+    y: atomic<u32>,
+    /// 1.
+    z: u32,
+}
+
+/// Whether a pixel of the workgroup's tile is translucent.
+var<workgroup> tile_is_occupied: atomic<u32>;
+
+/// Copies the pixels of a tile that do not scatter, and lists the tile if any does. An invocation takes
+/// 2×2 pixels.
+@compute @workgroup_size(8, 8)
+fn classify_compute(
+    @builtin(workgroup_id) tile: vec3u,
+    @builtin(global_invocation_id) invocation: vec3u,
+    @builtin(local_invocation_index) index: u32,
+) {
+    let size = vec2i(textureDimensions(irradiance_texture));
+    var occupied = false;
+    for (var place = 0; place < 4; place += 1) {
+        let position = 2 * vec2i(invocation.xy) + vec2i(place & 1, place >> 1u);
+        if any(position >= size) {
+            continue;
+        }
+        if input_surface(position).material == NO_MATERIAL {
+            textureStore(diffused_target, position, textureLoad(irradiance_texture, position, 0));
+        } else {
+            occupied = true;
+        }
+    }
+    if occupied {
+        atomicStore(&tile_is_occupied, 1u);
+    }
+    workgroupBarrier();
+    if atomicLoad(&tile_is_occupied) == 0u {
+        // Later stages leave this tile out: it must not keep the light of an earlier frame.
+        textureStore(four_word_target, vec2i(invocation.xy), vec4u(0u));
+        for (var place = 0; place < 4; place += 1) {
+            let position = 2 * vec2i(invocation.xy) + vec2i(place & 1, place >> 1u);
+            textureStore(pixel_target, position, vec4u(0u));
+        }
+        return;
+    }
+    if index == 0u {
+        let place = atomicAdd(&tiles.count, 1u);
+        tiles.places[place] = TILE_LISTED | tile.x | (tile.y << 12u);
+        atomicMax(&dispatch_arguments.x, min(place + 1u, LARGEST_DISPATCH));
+        atomicMax(&dispatch_arguments.y, place / LARGEST_DISPATCH + 1u);
+    }
+}
+
+/// The listed tile of a workgroup; 0 where there is none.
+fn listed_tile(group: vec3u) -> u32 {
+    return tiles.places[group.y * LARGEST_DISPATCH + group.x];
+}
+
+/// First pixel of a listed tile.
+fn tile_origin(listed: u32) -> vec2i {
+    return vec2i(vec2u(listed & 0xfffu, (listed >> 12u) & 0xfffu) * TILE_SIDE);
+}

@@ -1,0 +1,16 @@
+/// What the first stage of the kernel left for the second, if it has two.
+@group(2) @binding(0) var intermediate_texture: texture_2d<u32>;
+/// The rest of it, where one texel is too small.
+@group(2) @binding(1) var second_intermediate_texture: texture_2d<u32>;
+
+/// One triangle that covers the target.
+@vertex
+fn subsurface_vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
+    return covering_triangle(index);
+}
+
+/// Irradiance as it stands: for the pixels that the stencil leaves out.
+@fragment
+fn passthrough_fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
+    return textureLoad(irradiance_texture, vec2i(position.xy), 0);
+}
