@@ -41,7 +41,7 @@ fn depth_agreement(distance_mm: f32, of_point_mm: f32, span_mm: f32) -> f32 {
 ///
 /// A filter of less than a pixel leaves all light at the centre; up to two pixels it comes in by and by.
 fn block_light(view: SubsurfaceView, point: SurfacePoint, block: vec2i) -> BlockLight {
-    let taps = footprint_taps(point, u32(BLOCK_SIDE * BLOCK_SIDE) * view.taps);
+    let taps = footprint_taps(point, u32(BLOCK_SIDE * BLOCK_SIDE) * min(view.taps, LARGEST_TAP_COUNT));
     if taps == 0u {
         return BlockLight(Gathered(vec3f(0.0), vec3f(0.0)), NearField(vec3f(1.0), vec3f(0.0), vec3f(0.0)));
     }

@@ -83,7 +83,8 @@ fn pixel_light(at: Receiver, pixel: InputPixel, apart: vec2i, share: vec3f) -> G
     let steps = select(0.0, (pixel.distance_mm - at.surface.distance_mm) / at.span_mm, REJECT_BY_DISTANCE);
     // Close to the centre profiles fall about as r^-2 or slower: what depth leaves of the flat share.
     let squared_radius = f32(dot(apart, apart));
-    let by_depth = squared_radius / (squared_radius + steps * steps);
+    let on_surface = depth_agreement(pixel.distance_mm, at.surface.distance_mm, at.span_mm);
+    let by_depth = on_surface * squared_radius / (squared_radius + steps * steps);
     let by_normal = accepted_by_normal(at.normal, at.position + apart, pixel.distance_mm, at.span_mm);
     let weight = share * select(by_depth * by_normal, 0.0, is_other || pixel.material == NO_MATERIAL);
     return Gathered(weight * pixel.irradiance, weight);

@@ -117,7 +117,7 @@ fn texels_of_block(block: vec2i, pixels: BlockPixels) -> BlockTexels {
 /// Taps per pixel of the far field.
 fn taps_at(point: SurfacePoint) -> f32 {
     let pixels = u32(BLOCK_SIDE * BLOCK_SIDE);
-    return f32(footprint_taps(point, pixels * subsurface_view.taps)) / f32(pixels);
+    return f32(footprint_taps(point, pixels * min(subsurface_view.taps, LARGEST_TAP_COUNT))) / f32(pixels);
 }
 
 /// What the first stage keeps of a block.

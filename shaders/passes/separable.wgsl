@@ -9,23 +9,23 @@ fn gather_line(
     blurred: texture_2d<u32>,
     is_second: bool,
 ) -> Gathered {
-    let sides = taps_per_side(point, subsurface_view.taps - 1u);
-    let reach_mm = point.filter_radius_pixels * point.pixel_mm;
+    let sides = taps_per_side(point, max(subsurface_view.taps, 1u) - 1u);
+    let reach = point.filter_radius_pixels;
     let steps = f32(max(sides, 1u));
     // The centre's strip ends half way to the first tap, on both sides.
-    var edge = 0.5 * tap_offset(1.0, steps) * reach_mm;
-    var beyond_edge = beyond_line(surface, point.profiles, edge);
+    let edge_mm = 0.5 * tap_offset(1.0, steps, reach) * point.pixel_mm;
+    var beyond_edge = beyond_line(surface, point.profiles, edge_mm);
     let centre = select(vec3f(0.0), vec3f(1.0) - 2.0 * beyond_edge, own_counts);
     var gathered = Gathered(centre * own, centre);
     for (var tap = 1u; tap <= sides; tap += 1u) {
-        let offset_mm = tap_offset(f32(tap), steps) * reach_mm;
-        let next_edge = 0.5 * (offset_mm + tap_offset(f32(tap) + 1.0, steps) * reach_mm);
-        let beyond_next = select(beyond_line(surface, point.profiles, next_edge), vec3f(0.0), tap == sides);
+        let offset = tap_offset(f32(tap), steps, reach);
+        let offset_mm = offset * point.pixel_mm;
+        let next_edge_mm = 0.5 * (offset + tap_offset(f32(tap) + 1.0, steps, reach)) * point.pixel_mm;
+        let beyond_next = select(beyond_line(surface, point.profiles, next_edge_mm), vec3f(0.0), tap == sides);
         let strip = beyond_edge - beyond_next;
         let beyond_middle = beyond_line(surface, point.profiles, offset_mm);
         for (var side = -1.0; side <= 1.0; side += 2.0) {
-            let offset_pixels = min(offset_mm / point.pixel_mm, LARGEST_TAP_DISTANCE) * side;
-            let position = vec2i(round(point.position + offset_pixels * axis));
+            let position = vec2i(round(point.position + side * offset * axis));
             let pixel = line_pixel(position, blurred, is_second);
             if !accepts_material(point, pixel.material) {
                 continue;
@@ -102,7 +102,7 @@ fn blur_second(pixel: vec2i, texel: vec4f, blurred: texture_2d<u32>) -> vec4f {
 
 /// Taps per pixel: both passes.
 fn taps_at(point: SurfacePoint) -> f32 {
-    return 2.0 * f32(2u * taps_per_side(point, subsurface_view.taps - 1u) + 1u);
+    return 2.0 * f32(2u * taps_per_side(point, max(subsurface_view.taps, 1u) - 1u) + 1u);
 }
 
 /// What the first pass keeps of a pixel.

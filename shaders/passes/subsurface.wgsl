@@ -57,7 +57,8 @@ fn curve_texel(row: i32, step: i32) -> vec4f {
 fn mean_free_path_scale_at(position: vec2i) -> f32 {
     let last = vec2i(textureDimensions(mean_free_path_scale_texture)) - 1;
     let scale = textureLoad(mean_free_path_scale_texture, min(position, last), 0).r;
-    return select(1.0, scale, is_finite(scale));
+    let limited = clamp(scale, SMALLEST_MEAN_FREE_PATH_SCALE, LARGEST_MEAN_FREE_PATH_SCALE);
+    return select(1.0, limited, is_finite(scale));
 }
 
 /// The point of `surface`, which the pixel at `position` shows.

@@ -1,6 +1,7 @@
 //! Twin of `shaders/kernels/near_field.wgsl`: what stays within a pixel and its eight neighbours.
 
 use super::gathered::{Gathered, Rgb};
+use super::interleaved::BLOCK_DEPTH_PIXELS;
 use super::point::Point;
 use super::scene::Scene;
 
@@ -51,7 +52,9 @@ impl NearField {
         for (share, squared_radius, ring) in [(self.beside, 1.0, BESIDE), (self.across, 2.0, ACROSS)] {
             for [right, down] in ring {
                 let steps = point.depth_pixels(scene.depth(x + right) - scene.depth(x));
-                let kept = squared_radius / (squared_radius + steps * steps);
+                let off_surface = steps / BLOCK_DEPTH_PIXELS;
+                let on_surface = (1.0 - off_surface * off_surface).max(0.0);
+                let kept = on_surface * squared_radius / (squared_radius + steps * steps);
                 gathered.add(share.map(|share| kept * share), [scene.light(x + right, y + down); 3]);
             }
         }

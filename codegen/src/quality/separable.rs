@@ -34,8 +34,11 @@ impl<'a> Separable<'a> {
     pub(super) fn new(point: Point<'a>, taps: u32, rotated: bool) -> Self {
         let beyond = |offset: f64| point.beyond_line(offset);
         let sides = point.footprint_taps(taps.saturating_sub(1)).div_ceil(2);
-        let reach = point.filter_radius_pixels * point.pixel;
-        let offset = |tap: u32| (f64::from(tap) / f64::from(sides.max(1))).powi(2) * reach;
+        let offset = |tap: u32| {
+            let step = f64::from(tap) / f64::from(sides.max(1));
+            let pixels = (step * step * point.filter_radius_pixels).round_ties_even();
+            pixels.max(f64::from(tap)) * point.pixel
+        };
         let mut inner = beyond(0.5 * offset(1));
         let centre = inner.map(|beyond| 1.0 - 2.0 * beyond);
         let strips = (1..=sides).map(|tap| {
