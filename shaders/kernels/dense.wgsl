@@ -5,9 +5,9 @@
 const DENSE_QUANTILE: f32 = 0.999;
 
 /// Largest radius, pixels: beyond it light is renormalized, and the loops stay bounded. There is a software driver that
-/// ends an invocation's loops after 65536 rounds in all: four pixels per round keep below that, but for profiles which
-/// loop themselves (Gaussian sums, tables) only radii up to about 30 pixels do.
-const DENSE_LARGEST_RADIUS: f32 = 240.0;
+/// ends an invocation's loops after 65536 rounds in all: this keeps below, but for profiles which loop themselves (Gaussian
+/// sums, tables) only radii up to about 30 pixels do.
+const DENSE_LARGEST_RADIUS: f32 = 120.0;
 
 /// Pixels around the centre, along each axis, whose share is integrated over their area.
 const DENSE_INTEGRATED: i32 = 2;
@@ -28,17 +28,8 @@ fn gather_dense(point: SurfacePoint, centre: vec2i, size: vec2i) -> Gathered {
     let last = min(centre + radius, size - 1);
     var gathered = Gathered(vec3f(0.0), vec3f(0.0));
     for (var y = first.y; y <= last.y; y += 1) {
-        for (var x = first.x; x <= last.x; x += 4) {
-            let position = vec2i(x, y);
-            let left = together(
-                dense_light(point, centre, position, radius),
-                dense_light(point, centre, position + vec2i(1, 0), radius),
-            );
-            let right = together(
-                dense_light(point, centre, position + vec2i(2, 0), radius),
-                dense_light(point, centre, position + vec2i(3, 0), radius),
-            );
-            gathered = together(gathered, together(left, right));
+        for (var x = first.x; x <= last.x; x += 1) {
+            gathered = together(gathered, dense_light(point, centre, vec2i(x, y), radius));
         }
     }
     return gathered;
