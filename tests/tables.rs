@@ -265,11 +265,11 @@ fn a_kernel_has_the_profile_tables_that_its_wgsl_reads_or_is_none() {
     use subsurface::runtime::{KernelError, KernelKind, KernelParts, SubsurfaceKernel};
     let kernel = |compilation: &Compilation, profile_tables: &[u8]| {
         SubsurfaceKernel::new(KernelParts {
-            wgsl: compilation.wgsl.clone(),
-            material_table: compilation.material_table.clone(),
-            material_names: compilation.material_names(),
-            profile_tables: profile_tables.to_vec(),
-            profile_curves: compilation.profile_curves.clone(),
+            wgsl: compilation.wgsl.clone().into(),
+            material_table: compilation.material_table.clone().into(),
+            material_names: compilation.material_names().into_iter().map(Into::into).collect(),
+            profile_tables: profile_tables.to_vec().into(),
+            profile_curves: compilation.profile_curves.clone().into(),
             curve_size: compilation.curve_size,
             kind: KernelKind::Interleaved,
             taps: compilation.kernel.taps(),

@@ -45,6 +45,14 @@ fn load_distance_mm(pixel: vec2i) -> f32 {
     return textureLoad(distance_texture, pixel, 0).r;
 }
 
+/// What `load_distance_mm` gives, or 0 outside of the picture.
+fn tap_distance_mm(pixel: vec2i) -> f32 {
+    if !is_inside(pixel) {
+        return 0.0;
+    }
+    return load_distance_mm(pixel);
+}
+
 /// A static angle per pixel: PCG hash of its coordinates (Jarzynski and Olano 2020, "Hash Functions for GPU Rendering",
 /// JCGT 9(3), `pcg2d`).
 fn pixel_angle(pixel: vec2i) -> f32 {

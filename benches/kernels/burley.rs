@@ -1,14 +1,13 @@
 //! Burley's coefficients of a subject.
 
+use crate::uniform_subject;
 use subsurface_cli::kernel_bench::{Stage, Subject};
 use subsurface_profile::{Medium, Model};
 
 /// Burley's d per channel, mm, or why a method for one Burley profile per object does not suit the stage.
 pub(crate) fn scattering_distance_mm(stage: &Stage<'_>) -> Result<[f64; 3], String> {
     let d = own(stage.subject).ok_or("knows Burley's profile alone")?;
-    if !stage.case.is_uniform(stage.subject) {
-        return Err("knows one surface albedo per object: see --uniform-albedo".to_owned());
-    }
+    uniform_subject::check(stage)?;
     Ok(d)
 }
 

@@ -23,15 +23,12 @@ fn gather(pixel: vec2i, own: vec4f, distance_mm: f32) -> vec3f {
     for (var tap = 0u; tap < settings.taps; tap += 1u) {
         let entry = table[tap];
         let position = pixel + vec2i(round(rotation * entry.xy * (placed / scale)));
-        if !is_inside(position) {
-            continue;
-        }
-        let tap_distance_mm = load_distance_mm(position);
-        if tap_distance_mm == 0.0 || textureLoad(surface_texture, position, 0).w != object {
+        let there_mm = tap_distance_mm(position);
+        if there_mm == 0.0 || textureLoad(surface_texture, position, 0).w != object {
             continue;
         }
         // R diverges at 0, where a tap rounds to the pixel itself: of 0.1, 0.25 and 0.5 pixels the best.
-        let path_mm = max(distance(here, view_position_mm(position, tap_distance_mm)), 0.25 * scale);
+        let path_mm = max(distance(here, view_position_mm(position, there_mm)), 0.25 * scale);
         let weight = burley(path_mm, d) / (path_mm * entry.z);
         light += weight * textureLoad(irradiance_texture, position, 0).rgb;
         weights += weight;

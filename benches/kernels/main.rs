@@ -17,6 +17,7 @@ mod hdrp;
 mod pass;
 mod separable;
 mod uniform_disc;
+mod uniform_subject;
 
 use std::ffi::OsString;
 use std::process::ExitCode;

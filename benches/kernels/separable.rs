@@ -1,10 +1,11 @@
 //! The separable kernel as published: see `separable.wgsl`.
 
 use crate::pass::{Pass, Settings};
+use crate::uniform_subject::{profiles, widest_radius_mm};
 use subsurface_cli::failure::Failure;
 use subsurface_cli::kernel_bench::{Contender, Entry, Goal, Stage};
 use subsurface_profile::fit::{Family, Options, fit};
-use subsurface_profile::{Channel, Model, RadialData, RadialProfile, RadialRow};
+use subsurface_profile::{Model, RadialData, RadialProfile, RadialRow};
 
 /// Jimenez et al. 2015 with a sum of Gaussians, fitted to the subject's profile.
 #[derive(Clone, Copy, Debug)]
@@ -40,24 +41,16 @@ impl Contender for Separable {
     }
 
     fn enter(&self, stage: &Stage<'_>) -> Result<Entry, Failure> {
-        if !stage.case.is_uniform(stage.subject) {
-            return Ok(Entry::Declines(
-                "knows one surface albedo per object: see --uniform-albedo".to_owned(),
-            ));
-        }
-        let mut gaussians = Vec::new();
-        let mut reach_mm = 0.0f64;
-        for channel in Channel::ALL {
-            let Some(profile) = stage.subject.profile(channel) else {
-                return Ok(Entry::Declines("there is no profile at this surface albedo".to_owned()));
-            };
-            reach_mm = reach_mm.max(profile.sample_radius(REACH_QUANTILE));
-            match sum_of_gaussians(&*profile) {
-                Ok(sum) => gaussians.push(sum),
-                Err(reason) => return Ok(Entry::Declines(reason)),
-            }
-        }
-        let row = row(&gaussians, reach_mm, self.taps);
+        let prepared = profiles(stage).and_then(|profiles| {
+            let gaussians: Vec<Sum> =
+                profiles.iter().map(|profile| sum_of_gaussians(&**profile)).collect::<Result<_, _>>()?;
+            let reach_mm = widest_radius_mm(&profiles, REACH_QUANTILE);
+            Ok((row(&gaussians, reach_mm, self.taps), reach_mm))
+        });
+        let (row, reach_mm) = match prepared {
+            Ok(prepared) => prepared,
+            Err(reason) => return Ok(Entry::Declines(reason)),
+        };
         let along = |axis| Settings { reach_mm, taps: self.taps, axis, ..Settings::default() };
         let pass = Pass::new(stage, include_str!("separable.wgsl"), &row, &[along(0), along(1)])?;
         Ok(Entry::Runs(Box::new(pass)))

@@ -1,9 +1,9 @@
 //! Taps of constant density: see `uniform_disc.wgsl`.
 
 use crate::pass::{Pass, Settings};
+use crate::uniform_subject::{profiles, widest_radius_mm};
 use subsurface_cli::failure::Failure;
 use subsurface_cli::kernel_bench::{Contender, Entry, Stage};
-use subsurface_profile::Channel;
 
 /// Taps of constant density over the disc.
 #[derive(Clone, Copy, Debug)]
@@ -29,17 +29,11 @@ impl Contender for UniformDisc {
     }
 
     fn enter(&self, stage: &Stage<'_>) -> Result<Entry, Failure> {
-        if !stage.case.is_uniform(stage.subject) {
-            return Ok(Entry::Declines(
-                "knows one surface albedo per object: see --uniform-albedo".to_owned(),
-            ));
-        }
-        let profiles = Channel::ALL.map(|channel| stage.subject.profile(channel));
-        let [Some(red), Some(green), Some(blue)] = profiles else {
-            return Ok(Entry::Declines("there is no profile at this surface albedo".to_owned()));
+        let profiles = match profiles(stage) {
+            Ok(profiles) => profiles,
+            Err(reason) => return Ok(Entry::Declines(reason)),
         };
-        let profiles = [red, green, blue];
-        let reach_mm = profiles.iter().map(|p| p.sample_radius(REACH_QUANTILE)).fold(0.0, f64::max);
+        let reach_mm = widest_radius_mm(&profiles, REACH_QUANTILE);
         let entry = |index: u32| {
             // Not at 0, where r·R(r) is a limit that not every profile can evaluate.
             let share = f64::from(index.max(1)) / f64::from(ENTRIES - 1);

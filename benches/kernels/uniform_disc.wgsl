@@ -24,14 +24,11 @@ fn gather(pixel: vec2i, own: vec4f, distance_mm: f32) -> vec3f {
         let radius_mm = settings.reach_mm * sqrt((f32(tap) + 0.5) / f32(settings.taps));
         let angle = turn + GOLDEN_ANGLE * f32(tap);
         let position = pixel + vec2i(round(radius_mm / scale * vec2f(cos(angle), sin(angle))));
-        if !is_inside(position) {
+        let there_mm = tap_distance_mm(position);
+        if there_mm == 0.0 {
             continue;
         }
-        let tap_distance_mm = load_distance_mm(position);
-        if tap_distance_mm == 0.0 {
-            continue;
-        }
-        let rise = tap_distance_mm - distance_mm;
+        let rise = there_mm - distance_mm;
         let weight = profile(sqrt(radius_mm * radius_mm + rise * rise));
         light += weight * textureLoad(irradiance_texture, position, 0).rgb;
         weights += weight;

@@ -68,7 +68,7 @@ impl Kernel {
         }
     }
 
-    /// Stem of its shader modules: `passes/STEM` and `passes/STEM_compute`.
+    /// Stem of its shader modules: `passes/STEM` and, of a kernel with two stages, `passes/STEM_compute`.
     pub(crate) fn stem(self) -> &'static str {
         match self {
             Self::ImportanceSampled { .. } => "importance_sampled",
@@ -81,6 +81,11 @@ impl Kernel {
     /// Whether a stage comes before the last: the far field of blocks, or the blur along the first axis.
     pub(crate) fn has_two_stages(self) -> bool {
         matches!(self, Self::Separable { .. } | Self::Interleaved { .. })
+    }
+
+    /// Whether its stages read pixels that an earlier one packed.
+    pub(crate) fn packs_pixels(self) -> bool {
+        matches!(self, Self::Interleaved { .. })
     }
 
     /// Whether the passes turn the axes of the kernel per pixel.

@@ -4,35 +4,29 @@ use std::borrow::Cow;
 
 use crate::kernel_kind::KernelKind;
 
-/// A kernel module with the tables of its materials.
+/// A kernel module with the tables of its materials: [`KernelParts`] that fit each other.
 ///
 /// Generated Rust makes one with [`from_generated`](Self::from_generated); whoever compiles materials at run time makes
 /// one with [`new`](Self::new) from the compiler's output.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SubsurfaceKernel {
-    wgsl: Cow<'static, str>,
-    material_table: Cow<'static, [u8]>,
-    material_names: Vec<Cow<'static, str>>,
-    profile_tables: Cow<'static, [u8]>,
-    profile_curves: Cow<'static, [u8]>,
-    curve_size: [u32; 2],
-    kind: KernelKind,
-    taps: u32,
+    parts: KernelParts,
 }
 
-/// What a compiler puts out for one set of materials.
+/// What a compiler puts out for one set of materials: borrowed where it stands in the program, owned where it was
+/// compiled at run time.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct KernelParts {
     /// The module's text.
-    pub wgsl: String,
+    pub wgsl: Cow<'static, str>,
     /// Bytes of the parameter table: one row per material, by number.
-    pub material_table: Vec<u8>,
+    pub material_table: Cow<'static, [u8]>,
     /// Names by material number.
-    pub material_names: Vec<String>,
+    pub material_names: Vec<Cow<'static, str>>,
     /// Bytes of the tables of tabulated profiles; empty where no material has one.
-    pub profile_tables: Vec<u8>,
+    pub profile_tables: Cow<'static, [u8]>,
     /// Texels of the profiles' curves: four f32 each, rows from the top.
-    pub profile_curves: Vec<u8>,
+    pub profile_curves: Cow<'static, [u8]>,
     /// Width and height of the curves, texels.
     pub curve_size: [u32; 2],
     /// The estimator that the module holds.
@@ -41,26 +35,8 @@ pub struct KernelParts {
     pub taps: u32,
 }
 
-/// [`KernelParts`] that stand in the program.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct GeneratedKernel {
-    /// The module's text.
-    pub wgsl: &'static str,
-    /// Bytes of the parameter table: one row per material, by number.
-    pub material_table: &'static [u8],
-    /// Names by material number.
-    pub material_names: &'static [&'static str],
-    /// Bytes of the tables of tabulated profiles; empty where no material has one.
-    pub profile_tables: &'static [u8],
-    /// Texels of the profiles' curves: four f32 each, rows from the top.
-    pub profile_curves: &'static [u8],
-    /// Width and height of the curves, texels.
-    pub curve_size: [u32; 2],
-    /// The estimator that the module holds.
-    pub kind: KernelKind,
-    /// Taps per pixel unless a [`SubsurfaceView`](crate::SubsurfaceView) says otherwise.
-    pub taps: u32,
-}
+/// How the compiler's WGSL declares a parameter table that is a uniform buffer. Comments of ours do not spell it.
+const UNIFORM_MATERIAL_TABLE: &str = "@group(0) @binding(0) var<uniform> material_table:";
 
 /// How the compiler's WGSL declares the buffer of the profile tables. Comments of ours do not spell it.
 const PROFILE_TABLES: &str = "@group(0) @binding(1) var<storage, read> profile_tables:";
@@ -135,45 +111,28 @@ impl SubsurfaceKernel {
         if expected != Some(parts.profile_curves.len()) || parts.profile_curves.is_empty() {
             return Err(KernelError::ProfileCurves { width, height, bytes: parts.profile_curves.len() });
         }
-        Ok(Self {
-            wgsl: Cow::Owned(parts.wgsl),
-            material_table: Cow::Owned(parts.material_table),
-            material_names: parts.material_names.into_iter().map(Cow::Owned).collect(),
-            profile_tables: Cow::Owned(parts.profile_tables),
-            profile_curves: Cow::Owned(parts.profile_curves),
-            curve_size: parts.curve_size,
-            kind: parts.kind,
-            taps: parts.taps,
-        })
+        Ok(Self { parts })
     }
 
-    /// A kernel from generated Rust, whose parts fit by construction.
-    pub fn from_generated(parts: GeneratedKernel) -> Self {
-        Self {
-            wgsl: Cow::Borrowed(parts.wgsl),
-            material_table: Cow::Borrowed(parts.material_table),
-            material_names: parts.material_names.iter().map(|name| Cow::Borrowed(*name)).collect(),
-            profile_tables: Cow::Borrowed(parts.profile_tables),
-            profile_curves: Cow::Borrowed(parts.profile_curves),
-            curve_size: parts.curve_size,
-            kind: parts.kind,
-            taps: parts.taps,
-        }
+    /// A kernel from generated Rust, whose parts fit by construction: nothing is checked. For parts from elsewhere there
+    /// is [`new`](Self::new).
+    pub fn from_generated(parts: KernelParts) -> Self {
+        Self { parts }
     }
 
     /// The estimator that the module holds.
     pub fn kind(&self) -> KernelKind {
-        self.kind
+        self.parts.kind
     }
 
     /// Taps per pixel unless a [`SubsurfaceView`](crate::SubsurfaceView) says otherwise.
     pub fn taps(&self) -> u32 {
-        self.taps
+        self.parts.taps
     }
 
     /// Format that the compute path writes, as the compiler was told.
     pub fn compute_format(&self) -> Option<wgpu::TextureFormat> {
-        let (_, rest) = self.wgsl.split_once(DIFFUSED_TEXTURE)?;
+        let (_, rest) = self.parts.wgsl.split_once(DIFFUSED_TEXTURE)?;
         match rest.split_once(',')?.0 {
             "rgba16float" => Some(wgpu::TextureFormat::Rgba16Float),
             "rgba32float" => Some(wgpu::TextureFormat::Rgba32Float),
@@ -183,32 +142,37 @@ impl SubsurfaceKernel {
 
     /// Texels of the profiles' curves, as bytes, and their size.
     pub fn profile_curves(&self) -> (&[u8], [u32; 2]) {
-        (&self.profile_curves, self.curve_size)
+        (&self.parts.profile_curves, self.parts.curve_size)
     }
 
     /// The module's text.
     pub fn wgsl(&self) -> &str {
-        &self.wgsl
+        &self.parts.wgsl
     }
 
     /// Bytes of the parameter table: one row per material, by number.
     pub fn material_table(&self) -> &[u8] {
-        &self.material_table
+        &self.parts.material_table
     }
 
     /// Bytes of the tables of tabulated profiles; empty where no material uses one.
     pub fn profile_tables(&self) -> &[u8] {
-        &self.profile_tables
+        &self.parts.profile_tables
+    }
+
+    /// Whether the module reads the parameter table from a uniform buffer: the compiler's choice, by its size.
+    pub(crate) fn has_uniform_material_table(&self) -> bool {
+        self.parts.wgsl.contains(UNIFORM_MATERIAL_TABLE)
     }
 
     /// Bytes of one row.
     pub fn material_stride(&self) -> usize {
-        self.material_table.len() / self.material_names.len()
+        self.parts.material_table.len() / self.parts.material_names.len()
     }
 
     /// Names by material number.
     pub fn material_names(&self) -> impl ExactSizeIterator<Item = &str> {
-        self.material_names.iter().map(AsRef::as_ref)
+        self.parts.material_names.iter().map(AsRef::as_ref)
     }
 
     /// Number of the material of that name: what the surface target's fourth component holds.
@@ -219,7 +183,7 @@ impl SubsurfaceKernel {
     pub(crate) fn shader_module(&self, device: &wgpu::Device) -> wgpu::ShaderModule {
         device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some("SubsurfaceKernel module"),
-            source: wgpu::ShaderSource::Wgsl(self.wgsl.as_ref().into()),
+            source: wgpu::ShaderSource::Wgsl(self.parts.wgsl.as_ref().into()),
         })
     }
 }

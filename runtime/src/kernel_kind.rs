@@ -32,4 +32,9 @@ impl KernelKind {
     pub(crate) const fn has_two_stages(self) -> bool {
         matches!(self, Self::Separable | Self::Interleaved)
     }
+
+    /// Whether the stages read pixels that were packed before: `PACKS_PIXELS` of the shaders.
+    pub(crate) const fn packs_pixels(self) -> bool {
+        matches!(self, Self::Interleaved)
+    }
 }

@@ -35,7 +35,7 @@ pub use bindings::kernel::GBufferVertex as Vertex;
 pub use camera::{Bounds, Camera};
 pub use error::{ResizeError, SizeError, TexelsError};
 pub use geometry::{Geometry, Object, SurfaceDescriptor, TexturePixels};
-pub use kernel::{GeneratedKernel, KernelError, KernelParts, SubsurfaceKernel};
+pub use kernel::{KernelError, KernelParts, SubsurfaceKernel};
 pub use kernel_kind::KernelKind;
 pub use light::{DirectionalLight, LIGHT_CAPACITY};
 pub use pass::composite::{CompositeInputs, CompositePass, CompositeSettings};

@@ -5,10 +5,6 @@ use wgpu::util::DeviceExt as _;
 
 use crate::kernel::SubsurfaceKernel;
 
-/// Bytes up to which a parameter table is a uniform buffer: what every device of WebGPU binds at once. Software drivers
-/// read these ten times as fast as storage buffers. The compiler declares the table by the same rule.
-const LARGEST_UNIFORM_TABLE: usize = 65536;
-
 /// Bytes of a texel of the curves.
 const CURVE_TEXEL: u32 = 16;
 
@@ -104,7 +100,7 @@ impl MaterialTable {
 fn tables(kernel: &SubsurfaceKernel) -> Vec<Table<'_>> {
     let contents = kernel.material_table();
     let storage = wgpu::BufferBindingType::Storage { read_only: true };
-    let (ty, least) = if contents.len() <= LARGEST_UNIFORM_TABLE {
+    let (ty, least) = if kernel.has_uniform_material_table() {
         // The array in the WGSL has a length, so all of it must be bound.
         (wgpu::BufferBindingType::Uniform, contents.len())
     } else {

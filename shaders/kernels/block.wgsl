@@ -28,7 +28,7 @@ struct BlockLight {
 
 /// Share of a far field at `distance_mm` that counts for a point: 1 on its surface, 0 from BLOCK_DEPTH_PIXELS on.
 ///
-/// A parabola: within 0.3 dB of the Gaussian that it stands for, without an exponential.
+/// A parabola: as good as the Gaussian that it stands for, without an exponential.
 fn depth_agreement(distance_mm: f32, of_point_mm: f32, span_mm: f32) -> f32 {
     if !REJECT_BY_DISTANCE {
         return 1.0;
@@ -37,15 +37,20 @@ fn depth_agreement(distance_mm: f32, of_point_mm: f32, span_mm: f32) -> f32 {
     return max(1.0 - steps * steps, 0.0);
 }
 
-/// Far and near field of a block whose middle is `point`.
+/// Far and near field of a block whose middle is `point`, among packed `pixels`.
 ///
 /// A filter of less than a pixel leaves all light at the centre; up to two pixels it comes in by and by.
-fn block_light(view: SubsurfaceView, point: SurfacePoint, block: vec2i) -> BlockLight {
+fn block_light(
+    view: SubsurfaceView,
+    pixels: texture_2d<u32>,
+    point: SurfacePoint,
+    block: vec2i,
+) -> BlockLight {
     let taps = footprint_taps(point, u32(BLOCK_SIDE * BLOCK_SIDE) * min(view.taps, LARGEST_TAP_COUNT));
     if taps == 0u {
         return BlockLight(Gathered(vec3f(0.0), vec3f(0.0)), NearField(vec3f(1.0), vec3f(0.0), vec3f(0.0)));
     }
-    let far = gather_far_field(point, taps, lattice_slice(block), view.frame_index);
+    let far = gather_far_field(pixels, point, taps, lattice_slice(block), view.frame_index);
     let near = near_field(point);
     let blend = footprint_blend(point);
     return BlockLight(

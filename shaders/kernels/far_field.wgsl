@@ -18,10 +18,16 @@ fn lattice_slice(block: vec2i) -> f32 {
     return f32((block.x & 1) + 2 * ((block.x + block.y) & 1));
 }
 
-/// Light that enters `point`, the middle of a block, from beyond the disc of nine pixels.
+/// Light that enters `point`, the middle of a block, from beyond the disc of nine pixels, as packed `pixels` have it.
 ///
 /// Slices differ by a quarter of a stratum in radius and by a quarter turn; frames by the golden ratio's part of a turn.
-fn gather_far_field(point: SurfacePoint, taps: u32, slice: f32, frame: u32) -> Gathered {
+fn gather_far_field(
+    pixels: texture_2d<u32>,
+    point: SurfacePoint,
+    taps: u32,
+    slice: f32,
+    frame: u32,
+) -> Gathered {
     var gathered = Gathered(vec3f(0.0), vec3f(0.0));
     let u_inner = profile_radial_cdf(point.widest, FAR_RADIUS_PIXELS * point.pixel_mm / FAR_STRETCH);
     if taps == 0u || u_inner >= FAR_QUANTILE {
@@ -33,7 +39,9 @@ fn gather_far_field(point: SurfacePoint, taps: u32, slice: f32, frame: u32) -> G
     for (var tap = 0u; tap < taps; tap += 1u) {
         let stratum = (f32(tap) + (slice + 0.5) / LATTICE_SLICES) / f32(taps);
         let quantile = FAR_STRETCH * curve_quantile(point.widest.curve, u_inner + stratum * u_range);
-        gathered = together(gathered, tap_light(point, quantile, direction));
+        let position = tap_position(point, quantile.x, direction);
+        let pixel = unpack_pixel(load_packed_pixel(pixels, position));
+        gathered = together(gathered, light_of_tap(point, quantile, position, pixel));
         direction = turned(direction, GOLDEN_TURN);
     }
     let share = u_range / f32(taps);

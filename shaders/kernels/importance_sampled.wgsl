@@ -32,13 +32,22 @@ fn gather_importance_sampled(point: SurfacePoint, taps: u32, turn: f32) -> Gathe
 
 /// Light of one tap whose radius was drawn from `quantile`: (radius in mm, dr/du).
 fn tap_light(point: SurfacePoint, quantile: vec2f, direction: vec2f) -> Gathered {
-    let radius_mm = quantile.x;
+    let position = tap_position(point, quantile.x, direction);
+    return light_of_tap(point, quantile, position, input_pixel(position));
+}
+
+/// Pixel that a tap reads, `radius_mm` from the point.
+fn tap_position(point: SurfacePoint, radius_mm: f32, direction: vec2f) -> vec2i {
     let radius_pixels = min(radius_mm / point.pixel_mm, LARGEST_TAP_DISTANCE);
-    let position = vec2i(round(point.position + radius_pixels * direction));
-    let pixel = input_pixel(position);
+    return vec2i(round(point.position + radius_pixels * direction));
+}
+
+/// Light of one tap that found `pixel` at `position`.
+fn light_of_tap(point: SurfacePoint, quantile: vec2f, position: vec2i, pixel: InputPixel) -> Gathered {
     if !accepts_material(point, pixel.material) {
         return Gathered(vec3f(0.0), vec3f(0.0));
     }
+    let radius_mm = quantile.x;
     let depth_mm = depth_difference_mm(point, pixel.distance_mm);
     let path_mm = sqrt(radius_mm * radius_mm + depth_mm * depth_mm);
     // 1 / p(r) = 2πr · dr/du.

@@ -42,6 +42,8 @@ struct Receiver {
     normal: vec3f,
     /// Its irradiance before.
     own: vec3f,
+    /// 1 where that is finite; 0 where it is not and so is no light.
+    own_counts: f32,
 }
 
 /// The eight pixels around one: beside it, and across its corners.

@@ -13,13 +13,14 @@ fn pack_surface(surface: InputSurface) -> u32 {
         return 0u;
     }
     let half_step = (MATERIAL_MASK + 1u) >> 1u;
-    let distance = (bitcast<u32>(surface.distance_mm) + half_step) & ~MATERIAL_MASK;
+    // A distance is positive: its sign makes room for one bit more.
+    let distance = ((bitcast<u32>(surface.distance_mm) << 1u) + half_step) & ~MATERIAL_MASK;
     return distance | u32(surface.material + 1);
 }
 
 /// The surface whose word `pack_surface` made.
 fn unpack_surface(key: u32) -> InputSurface {
-    return InputSurface(bitcast<f32>(key & ~MATERIAL_MASK), i32(key & MATERIAL_MASK) - 1);
+    return InputSurface(bitcast<f32>((key & ~MATERIAL_MASK) >> 1u), i32(key & MATERIAL_MASK) - 1);
 }
 
 /// The words of a pixel that shows `surface`.
@@ -33,4 +34,12 @@ fn unpack_pixel(words: vec2u) -> InputPixel {
     let surface = unpack_surface(words.y);
     let material = select(surface.material, NO_MATERIAL, words.x == NO_LIGHT);
     return InputPixel(unpack_shared_exponent(words.x), surface.distance_mm, material);
+}
+
+/// The words of the pixel at `position`; zero outside of the target.
+fn load_packed_pixel(pixels: texture_2d<u32>, position: vec2i) -> vec2u {
+    if any(position < vec2i(0)) || any(position >= vec2i(textureDimensions(pixels))) {
+        return vec2u(0u);
+    }
+    return textureLoad(pixels, position, 0).rg;
 }

@@ -1,8 +1,8 @@
 // Quantile curves of the profiles, which the compiler bakes: radii are read, not found by iteration.
 //
 // A curve holds the quantile radius Q at 64 steps of t, u = 1 − (1 − t)², in lengths of its material. It belongs to one
-// surface albedo; texels hold the curve of their row and of the next, so that one load gives both neighbours: (lower curve, its rise
-// to the next step, upper curve, its rise).
+// surface albedo; texels hold the curve of their row and of the next, so that one load gives both neighbours: (lower
+// curve, its rise to the next step, upper curve, its rise).
 
 /// Steps of a curve.
 const CURVE_STEPS: f32 = 64.0;

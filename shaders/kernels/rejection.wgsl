@@ -1,7 +1,7 @@
 // Which light counts. The policy stands in constants that the compiler writes: REJECT_BY_MATERIAL, REJECT_BY_DISTANCE,
 // REJECT_BY_NORMAL and RETURN_TO_CENTRE.
 
-/// Whether light of `tap` may enter at all: background never does.
+/// Whether light of `material` may enter at all: background never does.
 fn accepts_material(point: SurfacePoint, material: i32) -> bool {
     return material != NO_MATERIAL && (!REJECT_BY_MATERIAL || material == point.material);
 }

@@ -36,7 +36,8 @@ const LARGEST_MEAN_FREE_PATH_SCALE: f32 = 1e3;
 /// Smallest length of a pixel, mm: the number of pixels in a radius stays a finite f32.
 const SMALLEST_PIXEL_MM: f32 = 1e-12;
 
-/// The point at `position`, with the profiles that its material has at this surface albedo.
+/// The point at `position`, with the profiles that its material has at this surface albedo. The scale is within its
+/// limits.
 fn surface_point(
     view: SubsurfaceView,
     position: vec2f,
@@ -46,7 +47,7 @@ fn surface_point(
     surface_albedo: vec3f,
     mean_free_path_scale: f32,
 ) -> SurfacePoint {
-    let per_mm = 1.0 / clamp(mean_free_path_scale, SMALLEST_MEAN_FREE_PATH_SCALE, LARGEST_MEAN_FREE_PATH_SCALE);
+    let per_mm = 1.0 / mean_free_path_scale;
     let profiles = material_profiles(row, surface_albedo);
     let reach = vec3f(
         curve_quantile(profiles.red.curve, FILTER_QUANTILE).x,

@@ -1,27 +1,10 @@
-/// Diffused irradiance at `pixel`, whose texel of the irradiance is `own`; a pixel that does not scatter keeps it.
-fn diffuse_dense(pixel: vec2i, own: vec4f) -> vec4f {
-    let surface = input_surface(pixel);
-    if surface.material == NO_MATERIAL {
-        return own;
-    }
-    let kept = finite_irradiance(own.rgb);
-    let point = surface_point_at(pixel, surface);
-    if footprint_taps(point, subsurface_view.taps) == 0u {
-        return vec4f(kept, own.a);
-    }
-    let gathered = gather_dense(point, pixel, vec2i(textureDimensions(irradiance_texture)));
-    return vec4f(mix(kept, diffused_irradiance(gathered, kept), footprint_blend(point)), own.a);
+/// Light for the point that `pixel` shows, of every pixel in reach.
+fn gather_at(point: SurfacePoint, pixel: vec2i) -> Gathered {
+    return gather_dense(point, pixel, vec2i(textureDimensions(irradiance_texture)));
 }
 
 /// Taps per pixel: all within the radius.
 fn taps_at(point: SurfacePoint) -> f32 {
     let radius = f32(dense_radius(point));
     return 0.5 * TAU * radius * radius;
-}
-
-/// Diffused irradiance of translucent pixels; every other pixel keeps its irradiance.
-@fragment
-fn subsurface_fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
-    let pixel = vec2i(position.xy);
-    return diffuse_dense(pixel, textureLoad(irradiance_texture, pixel, 0));
 }

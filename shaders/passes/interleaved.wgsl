@@ -1,3 +1,6 @@
+/// What a pixel gives the later stages is packed.
+const PACKS_PIXELS: bool = true;
+
 /// A pixel of a block.
 struct BlockPixel {
     surface: InputSurface,
@@ -7,9 +10,9 @@ struct BlockPixel {
     mean_free_path_scale: f32,
 }
 
-/// The pixel at `position`, which may lie outside of the target.
-fn block_pixel(position: vec2i) -> BlockPixel {
-    let surface = input_surface(position);
+/// The pixel at `position` of packed `pixels`, which may lie outside of the target.
+fn block_pixel(pixels: texture_2d<u32>, position: vec2i) -> BlockPixel {
+    let surface = unpack_surface(load_packed_pixel(pixels, position).y);
     if surface.material == NO_MATERIAL {
         return BlockPixel(surface, vec4f(0.0), 1.0);
     }
@@ -25,13 +28,13 @@ struct BlockPixels {
 }
 
 /// The pixels of `block`.
-fn pixels_of_block(block: vec2i) -> BlockPixels {
+fn pixels_of_block(pixels: texture_2d<u32>, block: vec2i) -> BlockPixels {
     let first = BLOCK_SIDE * block;
     return BlockPixels(
-        block_pixel(first),
-        block_pixel(first + vec2i(1, 0)),
-        block_pixel(first + vec2i(0, 1)),
-        block_pixel(first + vec2i(1, 1)),
+        block_pixel(pixels, first),
+        block_pixel(pixels, first + vec2i(1, 0)),
+        block_pixel(pixels, first + vec2i(0, 1)),
+        block_pixel(pixels, first + vec2i(1, 1)),
     );
 }
 
@@ -96,9 +99,9 @@ fn block_of(block: vec2i, pixels: BlockPixels) -> Block {
     );
 }
 
-/// What a block keeps for its pixels.
-fn texels_of_block(block: vec2i, pixels: BlockPixels) -> BlockTexels {
-    let surface = block_of(block, pixels);
+/// What a block keeps for its pixels, among packed `pixels`.
+fn texels_of_block(pixels: texture_2d<u32>, block: vec2i) -> BlockTexels {
+    let surface = block_of(block, pixels_of_block(pixels, block));
     if surface.material == NO_MATERIAL {
         return BlockTexels(vec4u(0u), vec2u(0u));
     }
@@ -111,7 +114,7 @@ fn texels_of_block(block: vec2i, pixels: BlockPixels) -> BlockTexels {
         surface.surface_albedo,
         surface.mean_free_path_scale,
     );
-    return block_texels(block_light(subsurface_view, point, block), surface);
+    return block_texels(block_light(subsurface_view, pixels, point, block), surface);
 }
 
 /// Taps per pixel of the far field.
@@ -120,11 +123,17 @@ fn taps_at(point: SurfacePoint) -> f32 {
     return f32(footprint_taps(point, pixels * min(subsurface_view.taps, LARGEST_TAP_COUNT))) / f32(pixels);
 }
 
+/// The pixels packed.
+@fragment
+fn pack_fragment(@builtin(position) position: vec4f) -> @location(0) vec2u {
+    let pixel = vec2i(position.xy);
+    return pack_pixel(input_surface(pixel), textureLoad(irradiance_texture, pixel, 0).rgb);
+}
+
 /// What the first stage keeps of a block.
 @fragment
 fn first_fragment(@builtin(position) position: vec4f) -> BlockTexels {
-    let block = vec2i(position.xy);
-    return texels_of_block(block, pixels_of_block(block));
+    return texels_of_block(pixel_texture, vec2i(position.xy));
 }
 
 /// Diffused irradiance of translucent pixels; every other pixel keeps its irradiance.
@@ -132,31 +141,27 @@ fn first_fragment(@builtin(position) position: vec4f) -> BlockTexels {
 fn subsurface_fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let pixel = vec2i(position.xy);
     let own = textureLoad(irradiance_texture, pixel, 0);
-    let surface = input_surface(pixel);
+    let surface = unpack_surface(load_packed_pixel(pixel_texture, pixel).y);
     if surface.material == NO_MATERIAL {
         return own;
     }
     let home = pixel / BLOCK_SIDE;
-    let side = (pixel % BLOCK_SIDE) * 2 - 1;
-    let fields = NearestFarFields(
-        load_far_field(intermediate_texture, home),
-        load_far_field(intermediate_texture, home + vec2i(side.x, 0)),
-        load_far_field(intermediate_texture, home + vec2i(0, side.y)),
-        load_far_field(intermediate_texture, home + side),
-    );
+    let fields = load_far_fields(intermediate_texture, home);
     let ring = Ring(
-        input_pixel(pixel + vec2i(-1, 0)),
-        input_pixel(pixel + vec2i(1, 0)),
-        input_pixel(pixel + vec2i(0, -1)),
-        input_pixel(pixel + vec2i(0, 1)),
-        input_pixel(pixel + vec2i(-1, -1)),
-        input_pixel(pixel + vec2i(1, -1)),
-        input_pixel(pixel + vec2i(-1, 1)),
-        input_pixel(pixel + vec2i(1, 1)),
+        unpack_pixel(load_packed_pixel(pixel_texture, pixel + vec2i(-1, 0))),
+        unpack_pixel(load_packed_pixel(pixel_texture, pixel + vec2i(1, 0))),
+        unpack_pixel(load_packed_pixel(pixel_texture, pixel + vec2i(0, -1))),
+        unpack_pixel(load_packed_pixel(pixel_texture, pixel + vec2i(0, 1))),
+        unpack_pixel(load_packed_pixel(pixel_texture, pixel + vec2i(-1, -1))),
+        unpack_pixel(load_packed_pixel(pixel_texture, pixel + vec2i(1, -1))),
+        unpack_pixel(load_packed_pixel(pixel_texture, pixel + vec2i(-1, 1))),
+        unpack_pixel(load_packed_pixel(pixel_texture, pixel + vec2i(1, 1))),
     );
     let shares = textureLoad(second_intermediate_texture, home, 0);
     let diffused = diffuse_interleaved(
         receiver_at(pixel, surface, own),
+        (pixel % BLOCK_SIDE) * 2 - 1,
+        subsurface_view.taps,
         fields,
         ring,
         unpack_shared_exponent(shares.x),

@@ -1,4 +1,4 @@
-/// Far fields and near shares of a tile's blocks, and their pixels packed for the second stage.
+/// Far fields and near shares of a tile's blocks.
 @compute @workgroup_size(8, 8)
 fn first_compute(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) local: vec3u) {
     let tile = listed_tile(group);
@@ -6,21 +6,9 @@ fn first_compute(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_
         return;
     }
     let block = tile_origin(tile) / BLOCK_SIDE + vec2i(local.xy);
-    let pixels = pixels_of_block(block);
-    let first = BLOCK_SIDE * block;
-    store_packed_pixel(first, pixels.a.surface);
-    store_packed_pixel(first + vec2i(1, 0), pixels.b.surface);
-    store_packed_pixel(first + vec2i(0, 1), pixels.c.surface);
-    store_packed_pixel(first + vec2i(1, 1), pixels.d.surface);
-    let texels = texels_of_block(block, pixels);
+    let texels = texels_of_block(pixel_source, block);
     textureStore(four_word_target, block, texels.light);
     textureStore(two_word_target, block, vec4u(texels.ring, 0u, 0u));
-}
-
-/// Packs the pixel at `position`, which shows `surface`.
-fn store_packed_pixel(position: vec2i, surface: InputSurface) {
-    let irradiance = textureLoad(irradiance_texture, position, 0).rgb;
-    textureStore(pixel_target, position, vec4u(pack_pixel(surface, irradiance), 0u, 0u));
 }
 
 /// The words of four pixels of a row.
@@ -34,19 +22,11 @@ struct PixelRow {
 /// Four pixels from `start` on to the right.
 fn load_pixel_row(start: vec2i) -> PixelRow {
     return PixelRow(
-        load_packed_pixel(start),
-        load_packed_pixel(start + vec2i(1, 0)),
-        load_packed_pixel(start + vec2i(2, 0)),
-        load_packed_pixel(start + vec2i(3, 0)),
+        load_packed_pixel(pixel_source, start),
+        load_packed_pixel(pixel_source, start + vec2i(1, 0)),
+        load_packed_pixel(pixel_source, start + vec2i(2, 0)),
+        load_packed_pixel(pixel_source, start + vec2i(3, 0)),
     );
-}
-
-/// The words of the pixel at `position`; zero outside of the target.
-fn load_packed_pixel(position: vec2i) -> vec2u {
-    if !is_inside(position) {
-        return vec2u(0u);
-    }
-    return textureLoad(pixel_source, position, 0).rg;
 }
 
 /// The ring around the second pixel of the second of three rows.
@@ -77,11 +57,12 @@ fn ring_of_third(above: PixelRow, row: PixelRow, below: PixelRow) -> Ring {
     );
 }
 
-/// Diffuses the light of the pixel of words `own` and stores it, if it is translucent.
+/// Diffuses the light of the pixel on `side` of block `home`, whose words are `own`, and stores it, if it is translucent.
 fn store_diffused(
-    pixel: vec2i,
+    home: vec2i,
+    side: vec2i,
     own: vec2u,
-    fields: NearestFarFields,
+    fields: FarFields,
     ring: Ring,
     beside: vec3f,
     across: vec3f,
@@ -89,9 +70,10 @@ fn store_diffused(
     if own.y == 0u {
         return;
     }
+    let pixel = BLOCK_SIDE * home + (side + 1) / 2;
     let texel = textureLoad(irradiance_texture, pixel, 0);
     let at = receiver_at(pixel, unpack_surface(own.y), texel);
-    let diffused = diffuse_interleaved(at, fields, ring, beside, across);
+    let diffused = diffuse_interleaved(at, side, subsurface_view.taps, fields, ring, beside, across);
     textureStore(diffused_target, pixel, vec4f(diffused, texel.a));
 }
 
@@ -109,48 +91,16 @@ fn subsurface_compute(@builtin(workgroup_id) group: vec3u, @builtin(local_invoca
     let row_1 = load_pixel_row(pixel - vec2i(1, 0));
     let row_2 = load_pixel_row(pixel + vec2i(-1, 1));
     let row_3 = load_pixel_row(pixel + vec2i(-1, 2));
-    let middle = load_far_field(intermediate_source, home);
-    let left = load_far_field(intermediate_source, home + vec2i(-1, 0));
-    let right = load_far_field(intermediate_source, home + vec2i(1, 0));
-    let above = load_far_field(intermediate_source, home + vec2i(0, -1));
-    let below = load_far_field(intermediate_source, home + vec2i(0, 1));
-    let above_left = load_far_field(intermediate_source, home + vec2i(-1, -1));
-    let above_right = load_far_field(intermediate_source, home + vec2i(1, -1));
-    let below_left = load_far_field(intermediate_source, home + vec2i(-1, 1));
-    let below_right = load_far_field(intermediate_source, home + vec2i(1, 1));
+    let fields = load_far_fields(intermediate_source, home);
     let shares = textureLoad(second_intermediate_source, home, 0);
     let beside = unpack_shared_exponent(shares.x);
     let across = unpack_shared_exponent(shares.y);
-    store_diffused(
-        pixel,
-        row_1.b,
-        NearestFarFields(middle, left, above, above_left),
-        ring_of_second(row_0, row_1, row_2),
-        beside,
-        across,
-    );
-    store_diffused(
-        pixel + vec2i(1, 0),
-        row_1.c,
-        NearestFarFields(middle, right, above, above_right),
-        ring_of_third(row_0, row_1, row_2),
-        beside,
-        across,
-    );
-    store_diffused(
-        pixel + vec2i(0, 1),
-        row_2.b,
-        NearestFarFields(middle, left, below, below_left),
-        ring_of_second(row_1, row_2, row_3),
-        beside,
-        across,
-    );
-    store_diffused(
-        pixel + vec2i(1, 1),
-        row_2.c,
-        NearestFarFields(middle, right, below, below_right),
-        ring_of_third(row_1, row_2, row_3),
-        beside,
-        across,
-    );
+    let upper_left = ring_of_second(row_0, row_1, row_2);
+    let upper_right = ring_of_third(row_0, row_1, row_2);
+    let lower_left = ring_of_second(row_1, row_2, row_3);
+    let lower_right = ring_of_third(row_1, row_2, row_3);
+    store_diffused(home, vec2i(-1, -1), row_1.b, fields, upper_left, beside, across);
+    store_diffused(home, vec2i(1, -1), row_1.c, fields, upper_right, beside, across);
+    store_diffused(home, vec2i(-1, 1), row_2.b, fields, lower_left, beside, across);
+    store_diffused(home, vec2i(1, 1), row_2.c, fields, lower_right, beside, across);
 }

@@ -1,3 +1,6 @@
+/// Stages read the inputs as they are.
+const PACKS_PIXELS: bool = false;
+
 /// Light gathered along `axis` at the point; `is_second` tells the second pass, which reads `blurred`, what the first one
 /// left. The centre's own light counts unless it was not finite.
 fn gather_line(

@@ -79,5 +79,6 @@ fn surface_point_at(position: vec2i, surface: InputSurface) -> SurfacePoint {
 fn receiver_at(position: vec2i, surface: InputSurface, texel: vec4f) -> Receiver {
     let span = span_mm(subsurface_view, surface.distance_mm);
     let normal = surface_normal(position, surface.distance_mm, span);
-    return Receiver(position, surface, span, normal, finite_irradiance(texel.rgb));
+    let own_counts = select(0.0, 1.0, is_finite_rgb(texel.rgb));
+    return Receiver(position, surface, span, normal, finite_irradiance(texel.rgb), own_counts);
 }

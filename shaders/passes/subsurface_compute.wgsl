@@ -2,13 +2,13 @@
 @group(2) @binding(0) var intermediate_source: texture_2d<u32>;
 /// The rest of it, where one texel is too small.
 @group(2) @binding(1) var second_intermediate_source: texture_2d<u32>;
-/// Pixels that a first stage packed for the second.
+/// Pixels that the classification packed.
 @group(2) @binding(2) var pixel_source: texture_2d<u32>;
 /// Where a first stage leaves four words.
 @group(2) @binding(3) var four_word_target: texture_storage_2d<rgba32uint, write>;
 /// Where a first stage leaves two words.
 @group(2) @binding(4) var two_word_target: texture_storage_2d<rg32uint, write>;
-/// Where a first stage packs pixels.
+/// Where the classification packs pixels.
 @group(2) @binding(5) var pixel_target: texture_storage_2d<rg32uint, write>;
 /// Tiles that hold translucent pixels.
 @group(2) @binding(6) var<storage, read_write> tiles: TileList;
@@ -47,38 +47,23 @@ struct DispatchArguments {
 /// Whether a pixel of the workgroup's tile is translucent.
 var<workgroup> tile_is_occupied: atomic<u32>;
 
-/// Copies the pixels of a tile that do not scatter, and lists the tile if any does. An invocation takes
-/// 2×2 pixels.
+/// Copies the pixels of a tile that do not scatter, packs all where the kernel wants that, and lists the tile if any
+/// scatters. An invocation takes 2×2 pixels.
 @compute @workgroup_size(8, 8)
 fn classify_compute(
     @builtin(workgroup_id) tile: vec3u,
     @builtin(global_invocation_id) invocation: vec3u,
     @builtin(local_invocation_index) index: u32,
 ) {
-    let size = vec2i(textureDimensions(irradiance_texture));
-    var occupied = false;
-    for (var place = 0; place < 4; place += 1) {
-        let position = 2 * vec2i(invocation.xy) + vec2i(place & 1, place >> 1u);
-        if any(position >= size) {
-            continue;
-        }
-        if input_surface(position).material == NO_MATERIAL {
-            textureStore(diffused_target, position, textureLoad(irradiance_texture, position, 0));
-        } else {
-            occupied = true;
-        }
-    }
-    if occupied {
+    let first = 2 * vec2i(invocation.xy);
+    let upper_scatters = any(vec2<bool>(classify_pixel(first), classify_pixel(first + vec2i(1, 0))));
+    let lower_scatters = any(vec2<bool>(classify_pixel(first + vec2i(0, 1)), classify_pixel(first + vec2i(1, 1))));
+    if upper_scatters || lower_scatters {
         atomicStore(&tile_is_occupied, 1u);
     }
-    workgroupBarrier();
-    if atomicLoad(&tile_is_occupied) == 0u {
+    if workgroupUniformLoad(&tile_is_occupied) == 0u {
         // Later stages leave this tile out: it must not keep the light of an earlier frame.
         textureStore(four_word_target, vec2i(invocation.xy), vec4u(0u));
-        for (var place = 0; place < 4; place += 1) {
-            let position = 2 * vec2i(invocation.xy) + vec2i(place & 1, place >> 1u);
-            textureStore(pixel_target, position, vec4u(0u));
-        }
         return;
     }
     if index == 0u {
@@ -89,9 +74,34 @@ fn classify_compute(
     }
 }
 
+/// Copies the pixel at `position` unless it scatters, and packs it where the kernel wants that. Returns whether it
+/// scatters.
+fn classify_pixel(position: vec2i) -> bool {
+    if !is_inside(position) {
+        return false;
+    }
+    let surface = input_surface(position);
+    let scatters = surface.material != NO_MATERIAL;
+    if scatters && !PACKS_PIXELS {
+        return true;
+    }
+    let texel = textureLoad(irradiance_texture, position, 0);
+    if PACKS_PIXELS {
+        textureStore(pixel_target, position, vec4u(pack_pixel(surface, texel.rgb), 0u, 0u));
+    }
+    if !scatters {
+        textureStore(diffused_target, position, texel);
+    }
+    return scatters;
+}
+
 /// The listed tile of a workgroup; 0 where there is none.
 fn listed_tile(group: vec3u) -> u32 {
-    return tiles.places[group.y * LARGEST_DISPATCH + group.x];
+    let place = group.y * LARGEST_DISPATCH + group.x;
+    if place >= arrayLength(&tiles.places) {
+        return 0u;
+    }
+    return tiles.places[place];
 }
 
 /// First pixel of a listed tile.

@@ -11,9 +11,6 @@ const DEBUG_LARGEST_RADIUS: f32 = 128.0;
 /// Taps that estimate rejection and variance.
 const DEBUG_PROBES: u32 = 64u;
 
-/// Side of a tile of the compute path, pixels.
-const DEBUG_TILE_SIDE: i32 = 16;
-
 /// From black over red and yellow to white as `value` goes from 0 to 1.
 fn heat(value: f32) -> vec3f {
     return clamp(vec3f(3.0 * value) - vec3f(0.0, 1.0, 2.0), vec3f(0.0), vec3f(1.0));
@@ -39,7 +36,7 @@ fn debug_colour(pixel: vec2i, point: SurfacePoint) -> vec3f {
             return near.centre + 4.0 * (near.beside + near.across);
         }
         case DEBUG_VARIANCE: {
-            return heat(relative_deviation(point, pixel));
+            return heat(relative_deviation(point));
         }
         default: {
             return vec3f(0.0);
@@ -48,8 +45,10 @@ fn debug_colour(pixel: vec2i, point: SurfacePoint) -> vec3f {
 }
 
 /// Standard deviation of single taps over their mean, in the widest channel: 0 where all light is alike.
-fn relative_deviation(point: SurfacePoint, pixel: vec2i) -> f32 {
+fn relative_deviation(point: SurfacePoint) -> f32 {
     var direction = vec2f(1.0, 0.0);
+    // Sums are in units of the brightest tap so far: squares of irradiance itself need not be finite.
+    var brightest = 0.0;
     var sum = 0.0;
     var squares = 0.0;
     var weights = 0.0;
@@ -57,9 +56,18 @@ fn relative_deviation(point: SurfacePoint, pixel: vec2i) -> f32 {
         let quantile = curve_quantile(point.widest.curve, (f32(tap) + 0.5) / f32(DEBUG_PROBES));
         let light = tap_light(point, quantile, direction);
         let weight = light.weight[point.widest_channel];
-        let value = light.irradiance[point.widest_channel];
-        sum += value;
-        squares += select(0.0, value * value / weight, weight > SMALLEST_WEIGHT);
+        let irradiance = light.irradiance[point.widest_channel] / max(weight, SMALLEST_WEIGHT);
+        if irradiance > brightest {
+            let ratio = brightest / irradiance;
+            sum *= ratio;
+            squares *= ratio * ratio;
+            brightest = irradiance;
+        }
+        if brightest > 0.0 {
+            let relative = irradiance / brightest;
+            sum += weight * relative;
+            squares += weight * relative * relative;
+        }
         weights += weight;
         direction = turned(direction, GOLDEN_TURN);
     }
@@ -71,9 +79,10 @@ fn relative_deviation(point: SurfacePoint, pixel: vec2i) -> f32 {
 
 /// Whether a pixel of the tile that holds `pixel` is translucent.
 fn tile_has_surface(pixel: vec2i) -> bool {
-    let origin = pixel / DEBUG_TILE_SIDE * DEBUG_TILE_SIDE;
-    for (var place = 0; place < DEBUG_TILE_SIDE * DEBUG_TILE_SIDE; place += 1) {
-        let position = origin + vec2i(place % DEBUG_TILE_SIDE, place / DEBUG_TILE_SIDE);
+    let side = i32(TILE_SIDE);
+    let origin = pixel / side * side;
+    for (var place = 0; place < side * side; place += 1) {
+        let position = origin + vec2i(place % side, place / side);
         if input_surface(position).material != NO_MATERIAL {
             return true;
         }
@@ -88,7 +97,7 @@ fn debug_fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let surface = input_surface(pixel);
     if subsurface_view.debug_view == DEBUG_TILES {
         let listed = select(vec3f(0.05, 0.05, 0.1), vec3f(0.1, 0.4, 0.15), tile_has_surface(pixel));
-        let is_border = any(pixel % DEBUG_TILE_SIDE == vec2i(0));
+        let is_border = any(pixel % i32(TILE_SIDE) == vec2i(0));
         let covered = select(0.0, 0.4, surface.material != NO_MATERIAL);
         return vec4f(select(listed + covered, vec3f(0.0), is_border), 1.0);
     }

@@ -2,6 +2,8 @@
 @group(2) @binding(0) var intermediate_texture: texture_2d<u32>;
 /// The rest of it, where one texel is too small.
 @group(2) @binding(1) var second_intermediate_texture: texture_2d<u32>;
+/// Pixels that an earlier stage packed.
+@group(2) @binding(2) var pixel_texture: texture_2d<u32>;
 
 /// One triangle that covers the target.
 @vertex

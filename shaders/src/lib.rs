@@ -73,21 +73,23 @@ pub const KERNELS: &[Module] = modules![
 
 /// Passes with their bindings and entry points.
 ///
-/// A kernel has two, `passes/<kernel>` and `passes/<kernel>_compute`, which are linked with the parts of the subsurface
-/// pass that all kernels share: those of two kernels bear the same names.
+/// Linked with the parts of the subsurface pass that all kernels share, `passes/<kernel>` is the fragment path of a kernel
+/// and `passes/<kernel>_compute` its compute path. Kernels of one stage share both, `passes/single_stage` and
+/// `passes/single_stage_compute`, and their `passes/<kernel>` holds what differs. The parts of two kernels bear the same
+/// names.
 pub const PASSES: &[Module] = modules![
     "passes/composite",
     "passes/dense",
-    "passes/dense_compute",
     "passes/distance",
     "passes/gbuffer",
     "passes/importance_sampled",
-    "passes/importance_sampled_compute",
     "passes/interleaved",
     "passes/interleaved_compute",
     "passes/separable",
     "passes/separable_compute",
     "passes/shadow",
+    "passes/single_stage",
+    "passes/single_stage_compute",
     "passes/subsurface",
     "passes/subsurface_compute",
     "passes/subsurface_debug",

@@ -34,11 +34,11 @@ pub(crate) fn kernel(materials: &Compilation) -> Result<SubsurfaceKernel, Failur
         }
     };
     let parts = KernelParts {
-        wgsl: materials.wgsl.clone(),
-        material_table: materials.material_table.clone(),
-        material_names: materials.material_names(),
-        profile_tables: materials.profile_tables.clone(),
-        profile_curves: materials.profile_curves.clone(),
+        wgsl: materials.wgsl.clone().into(),
+        material_table: materials.material_table.clone().into(),
+        material_names: materials.material_names().into_iter().map(Into::into).collect(),
+        profile_tables: materials.profile_tables.clone().into(),
+        profile_curves: materials.profile_curves.clone().into(),
         curve_size: materials.curve_size,
         kind,
         taps: materials.kernel.taps(),

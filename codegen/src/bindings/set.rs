@@ -58,6 +58,7 @@ pub(crate) fn set_tokens(
     } else {
         (TokenStream::new(), quote!(&[]))
     };
+    let borrowed = quote!(::std::borrow::Cow::Borrowed);
     let curves = PROFILE_CURVES_FILE;
     let [curve_width, curve_height] = bindings.curve_size.map(Literal::u32_unsuffixed);
     let kind = Ident::new(bindings.kernel.kind_name(), Span::call_site());
@@ -114,12 +115,12 @@ pub(crate) fn set_tokens(
         /// The kernel of this set, for the passes of the runtime.
         #[allow(dead_code)]
         pub fn kernel() -> #runtime::SubsurfaceKernel {
-            #runtime::SubsurfaceKernel::from_generated(#runtime::GeneratedKernel {
-                wgsl: WGSL,
-                material_table: #bytemuck::cast_slice(&MATERIALS),
-                material_names: &Material::NAMES,
-                profile_tables: #profile_tables,
-                profile_curves: PROFILE_CURVES,
+            #runtime::SubsurfaceKernel::from_generated(#runtime::KernelParts {
+                wgsl: #borrowed(WGSL),
+                material_table: #borrowed(#bytemuck::cast_slice(&MATERIALS)),
+                material_names: Material::NAMES.map(#borrowed).to_vec(),
+                profile_tables: #borrowed(#profile_tables),
+                profile_curves: #borrowed(PROFILE_CURVES),
                 curve_size: CURVE_SIZE,
                 kind: #runtime::KernelKind::#kind,
                 taps: #taps,

@@ -25,6 +25,9 @@ const SUBSURFACE_ENTRIES: [&str; 6] = [
 /// Those of a kernel that has a stage before the last.
 const FIRST_ENTRIES: [&str; 2] = ["first_fragment", "first_compute"];
 
+/// That of a kernel whose stages read packed pixels; the compute path packs them as it classifies.
+const PACK_ENTRY: &str = "pack_fragment";
+
 const GBUFFER_ENTRIES: [&str; 2] = ["gbuffer_vertex", "gbuffer_fragment"];
 
 /// A kernel module on its way to text.
@@ -68,6 +71,9 @@ impl KernelModule {
         let mut roots = SUBSURFACE_ENTRIES.to_vec();
         if choices.kernel.has_two_stages() {
             roots.extend(FIRST_ENTRIES);
+        }
+        if choices.kernel.packs_pixels() {
+            roots.push(PACK_ENTRY);
         }
         if gbuffer {
             roots.extend(GBUFFER_ENTRIES);
@@ -119,8 +125,12 @@ fn pass_files(kernel: Kernel, gbuffer: bool) -> Vec<String> {
         "passes/subsurface_debug".to_owned(),
         "passes/subsurface_fragment".to_owned(),
         format!("passes/{stem}"),
-        format!("passes/{stem}_compute"),
     ];
+    if kernel.has_two_stages() {
+        files.push(format!("passes/{stem}_compute"));
+    } else {
+        files.extend(["passes/single_stage".to_owned(), "passes/single_stage_compute".to_owned()]);
+    }
     if gbuffer {
         files.push("passes/gbuffer".to_owned());
     }

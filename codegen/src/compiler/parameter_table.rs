@@ -12,8 +12,8 @@ use super::ROW;
 /// Bytes that a uniform buffer may have on every device of WebGPU.
 const LARGEST_UNIFORM_BUFFER: usize = 65536;
 
-/// Adds the declaration to the glue: a uniform buffer where the rows fit, since a load at an index that is no constant
-/// costs a software driver thirteen times as much from a storage buffer.
+/// Adds the declaration to the glue: a uniform buffer where the rows fit, since software drivers load from a storage
+/// buffer much more slowly at an index that is no constant. The runtime binds what is declared here.
 pub(super) fn declare(glue: &mut Glue, modules: &[Module], materials: usize) {
     // Where the row cannot be laid out, the whole module cannot either, and linking or validating it says why.
     let bytes = row_bytes(glue, modules).map(|bytes| bytes * materials);

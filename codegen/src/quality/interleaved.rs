@@ -10,20 +10,35 @@ use super::scene::Scene;
 /// Depth difference, in pixels, up to which a far field counts.
 pub(super) const BLOCK_DEPTH_PIXELS: f64 = 6.0;
 
+/// Shares of a window in the block on a pixel's farther side, in its own, and on its nearer side: in all slices alike.
+const EVEN_WINDOW: [f64; 3] = [0.125, 0.5, 0.375];
+
+/// The same, linear between the middles of the blocks.
+const LINEAR_WINDOW: [f64; 3] = [0.0, 0.75, 0.25];
+
+/// Taps per pixel up to which the window is the even one.
+pub(super) const EVEN_WINDOW_TAPS: f64 = 4.0;
+
 /// The near field and the lattice of one footprint.
 #[derive(Debug)]
 pub(super) struct Interleaved<'a> {
     point: Point<'a>,
     near: NearField,
+    /// Shares of the window, on the farther side first.
+    window: [f64; 3],
     /// `None` where the footprint is too small for any tap.
     lattice: Option<Lattice>,
 }
 
 impl<'a> Interleaved<'a> {
     pub(super) fn new(point: Point<'a>, taps: u32) -> Self {
+        let evenness = (EVEN_WINDOW_TAPS / f64::from(taps.max(1))).min(1.0);
+        let window = std::array::from_fn(|place| {
+            LINEAR_WINDOW[place] + evenness * (EVEN_WINDOW[place] - LINEAR_WINDOW[place])
+        });
         let taps = point.footprint_taps(taps * PIXELS_OF_BLOCK);
         let lattice = (taps > 0).then(|| Lattice::new(&point, taps));
-        Self { near: NearField::new(&point), point, lattice }
+        Self { near: NearField::new(&point), point, window, lattice }
     }
 
     /// The pixels of a patch.
@@ -33,9 +48,9 @@ impl<'a> Interleaved<'a> {
             [scene.light(x, y); 3]
         };
         let Some(lattice) = &self.lattice else { return patch.pixels().map(own).collect() };
-        // Those whose middles are nearest to the outermost pixels: four along an axis where the patch cuts blocks, else five.
-        let first = patch.start.map(|start| (start - 1) / BLOCK_SIDE);
-        let last = patch.start.map(|start| (start + PATCH_SIDE) / BLOCK_SIDE);
+        // Those of the patch's pixels and the ones around.
+        let first = patch.start.map(|start| start.div_euclid(BLOCK_SIDE) - 1);
+        let last = patch.start.map(|start| (start + PATCH_SIDE - 1).div_euclid(BLOCK_SIDE) + 1);
         let width = last[0] - first[0] + 1;
         let blocks: Vec<Block> = (first[1]..=last[1])
             .flat_map(|y| (first[0]..=last[0]).map(move |x| [x, y]))
@@ -54,32 +69,35 @@ impl<'a> Interleaved<'a> {
     ) -> Rgb {
         let [x, y] = patch.in_scene(pixel);
         let own = [scene.light(x, y); 3];
-        let [home_x, home_y] = pixel.map(|place| place / BLOCK_SIDE);
-        let [side_x, side_y] = pixel.map(|place| place % BLOCK_SIDE * 2 - 1);
-        // Three quarters of the nearer middle along each axis.
-        let shares = [
-            (0.5625, [home_x, home_y]),
-            (0.1875, [home_x + side_x, home_y]),
-            (0.1875, [home_x, home_y + side_y]),
-            (0.0625, [home_x + side_x, home_y + side_y]),
-        ]
-        .map(|(share, block)| {
-            let block = block_at(block);
-            (share * self.agreement(block.depth - scene.depth(x)), block)
-        });
-        let agreement: f64 = shares.iter().map(|(share, _)| share).sum();
+        let depth = scene.depth(x);
+        let home = pixel.map(|place| place.div_euclid(BLOCK_SIDE));
+        let [columns, rows] = pixel.map(|place| self.window_shares(place));
+        let mut mixed = Gathered::default();
+        let mut agreement = 0.0;
+        for (y, row) in (-1..).zip(rows) {
+            for (x, column) in (-1..).zip(columns) {
+                let block = block_at([home[0] + x, home[1] + y]);
+                let share = row * column * self.agreement(block.depth - depth);
+                mixed.add_share(&block.far, share);
+                agreement += share;
+            }
+        }
         if agreement == 0.0 {
             return own;
         }
         let mut gathered = Gathered::default();
-        for (share, block) in shares {
-            gathered.add_share(&block.far, share / agreement);
-        }
+        gathered.add_share(&mixed, 1.0 / agreement);
         gathered.add(self.near.centre, own);
-        if shares[0].0 > 0.0 {
+        if self.agreement(block_at(home).depth - depth) > 0.0 {
             gathered.add_share(&self.near.ring(&self.point, scene, [x, y]), 1.0);
         }
         gathered.diffused(own, self.point.returned)
+    }
+
+    /// Shares of a pixel's window in the blocks before its own along an axis, in it and behind it.
+    fn window_shares(&self, place: i32) -> [f64; 3] {
+        let [farther, own, nearer] = self.window;
+        if place.rem_euclid(BLOCK_SIDE) == 0 { [nearer, own, farther] } else { [farther, own, nearer] }
     }
 
     /// Share of a far field that counts `apart` pixels of depth away.

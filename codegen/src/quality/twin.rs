@@ -5,7 +5,7 @@ use crate::kernel::Kernel;
 use super::far_field::PIXELS_OF_BLOCK;
 use super::gathered::Rgb;
 use super::importance_sampled::ImportanceSampled;
-use super::interleaved::Interleaved;
+use super::interleaved::{EVEN_WINDOW_TAPS, Interleaved};
 use super::patch::Patch;
 use super::point::Point;
 use super::scene::Scene;
@@ -40,6 +40,10 @@ impl<'a> Twin<'a> {
             }
             Kernel::Separable { taps, rotated } => {
                 Kernel::Separable { taps: point.footprint_taps(taps - 1) + 1, rotated }
+            }
+            // Its window narrows with the taps that are asked for, however many the footprint takes.
+            Kernel::Interleaved { taps } if f64::from(taps) > EVEN_WINDOW_TAPS => {
+                Kernel::Interleaved { taps: taps * PIXELS_OF_BLOCK }
             }
             Kernel::Interleaved { taps } => {
                 Kernel::Interleaved { taps: point.footprint_taps(taps * PIXELS_OF_BLOCK) }

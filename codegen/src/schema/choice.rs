@@ -14,14 +14,9 @@ pub(super) fn choice<'n>(
 ) -> Option<&'static str> {
     let name = match node.shape() {
         Shape::Name(name) => name,
-        Shape::Text(text) if words.contains(&text.as_str()) => {
-            let help = format!("write it without quotes: `{field}: {text}`");
-            decoder.wrong_type(node, field, "a word", help);
-            return None;
-        }
         _ => {
             let help = format!("the choices are {}", list(words.iter().copied()));
-            decoder.wrong_type(node, field, "a word", help);
+            no_word(decoder, node, field, "a word", words, help);
             return None;
         }
     };
@@ -30,6 +25,24 @@ pub(super) fn choice<'n>(
         unknown_word(decoder, &name, field, words);
     }
     found
+}
+
+/// Reports a value that is no word; `help` says what to write, unless it is one of `words` in quotes.
+pub(super) fn no_word(
+    decoder: &mut Decoder,
+    node: &Node<'_>,
+    field: &str,
+    expected: &str,
+    words: &[&'static str],
+    help: String,
+) {
+    let help = match node.shape() {
+        Shape::Text(text) if words.contains(&text.as_str()) => {
+            format!("write it without quotes: `{field}: {text}`")
+        }
+        _ => help,
+    };
+    decoder.wrong_type(node, field, expected, help);
 }
 
 /// Reports a name that is none of `words`.

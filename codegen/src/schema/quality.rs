@@ -4,7 +4,7 @@ use crate::diagnostics::Diagnostic;
 use crate::kernel::Kernel;
 use crate::quality::{Quality, QualityRequest, Tier};
 use crate::schema::body::Body;
-use crate::schema::choice::unknown_word;
+use crate::schema::choice::{no_word, unknown_word};
 use crate::schema::decoder::{Decoder, Fields, Given};
 use crate::suggestion::shortened;
 use crate::syntax::{Node, Shape};
@@ -30,13 +30,10 @@ pub(super) fn decode_quality(
 fn decode_value(decoder: &mut Decoder, node: &Node<'_>) -> Option<Quality> {
     let Some((name, body)) = Body::of(node) else {
         let help = match node.shape() {
-            Shape::Text(text) if WORDS.contains(&text.as_str()) => {
-                format!("write it without quotes: `quality: {text}`")
-            }
             Shape::Number(_) => format!("write `quality: MaxError({})`", shortened(node.text())),
             _ => "write `quality: MaxError(0.02)`, or one of `Low`, `Medium`, `High` and `Ultra`".to_owned(),
         };
-        decoder.wrong_type(node, "quality", "an error or a tier", help);
+        no_word(decoder, node, "quality", "an error or a tier", &WORDS, help);
         return None;
     };
     let tier = Tier::ALL.into_iter().find(|tier| tier.name() == name.text);
@@ -114,25 +111,13 @@ fn leaves_a_choice(decoder: &mut Decoder, kernel: &Node<'_>, quality: &Node<'_>)
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::schema::decode_set_file;
-    use crate::source::{SourceMap, Span};
-    use crate::syntax;
+    use crate::schema::set_file::tests::decoded_file;
 
     /// The request of a text, or its first error: message, and the text that it points at.
     fn decoded(text: &str) -> Result<Option<(Quality, Option<Kernel>)>, [String; 2]> {
-        let file = SourceMap::new().add("set.ron", text);
-        let document = syntax::parse(file, text).unwrap_or_else(|error| panic!("{}", error.message));
-        let mut decoder = Decoder::default();
-        let set = decode_set_file(&mut decoder, &document);
-        match decoder.finish(&Span::new(file, 0..text.len())).into_iter().next() {
-            Some(error) => {
-                assert!(!error.help.is_empty(), "no remedy: {}", error.message);
-                let (span, _) = error.primary.expect("an error in a file has a place");
-                Err([error.message, text[span.range].to_owned()])
-            }
-            None => {
-                Ok(set.and_then(|set| set.quality.value().map(|request| (request.quality, request.kernel))))
-            }
+        match decoded_file(text) {
+            Ok(set) => Ok(set.quality.value().map(|request| (request.quality, request.kernel))),
+            Err([message, _, place]) => Err([message, place]),
         }
     }
 

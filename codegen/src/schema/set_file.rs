@@ -5,7 +5,7 @@ use crate::kernel::Kernel;
 use crate::quality::QualityRequest;
 use crate::rejection::{Rejected, Rejection};
 use crate::schema::body::Body;
-use crate::schema::choice::{choice, unknown_word};
+use crate::schema::choice::{choice, no_word, unknown_word};
 use crate::schema::decoder::{Decoder, Given, head};
 use crate::schema::material::check_version;
 use crate::schema::quality::decode_quality;
@@ -44,13 +44,8 @@ pub(crate) fn decode_set_file(decoder: &mut Decoder, document: &Document<'_>) ->
 
 fn decode_kernel(decoder: &mut Decoder, node: &Node<'_>) -> Option<Kernel> {
     let Some((name, body)) = Body::of(node) else {
-        let help = match node.shape() {
-            Shape::Text(text) if KERNELS.contains(&text.as_str()) => {
-                format!("write it without quotes: `kernel: {text}`")
-            }
-            _ => format!("write `kernel: Interleaved(taps: 4)`; the kernels are {}", list(KERNELS)),
-        };
-        decoder.wrong_type(node, "kernel", "a kernel", help);
+        let help = format!("write `kernel: Interleaved(taps: 4)`; the kernels are {}", list(KERNELS));
+        no_word(decoder, node, "kernel", "a kernel", &KERNELS, help);
         return None;
     };
     let (owner, known, example): (_, &[&str], _) = match name.text {
@@ -152,13 +147,13 @@ fn decode_rejection(decoder: &mut Decoder, node: &Node<'_>) -> Option<Rejection>
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use crate::source::SourceMap;
     use crate::syntax;
 
-    /// The choices that a text makes, or the first error in it: message, label and the text that it points at.
-    fn decoded(text: &str) -> Result<(Kernel, Rejection), [String; 3]> {
+    /// What a text says, or the first error in it: message, label and the text that it points at.
+    pub(in crate::schema) fn decoded_file(text: &str) -> Result<SetFile, [String; 3]> {
         let file = SourceMap::new().add("set.ron", text);
         let document = syntax::parse(file, text).unwrap_or_else(|error| panic!("{}", error.message));
         let mut decoder = Decoder::default();
@@ -169,14 +164,16 @@ mod tests {
                 let (span, label) = error.primary.expect("an error in a file has a place");
                 Err([error.message, label, text[span.range].to_owned()])
             }
-            None => {
-                let set = set.expect("no error");
-                Ok((
-                    set.kernel.value().copied().unwrap_or_default(),
-                    set.rejection.value().copied().unwrap_or_default(),
-                ))
-            }
+            None => Ok(set.expect("no error")),
         }
+    }
+
+    /// The choices that a text makes, or its first error.
+    fn decoded(text: &str) -> Result<(Kernel, Rejection), [String; 3]> {
+        decoded_file(text).map(|set| {
+            let kernel = set.kernel.value().copied().unwrap_or_default();
+            (kernel, set.rejection.value().copied().unwrap_or_default())
+        })
     }
 
     fn kernel(text: &str) -> Result<Kernel, [String; 3]> {

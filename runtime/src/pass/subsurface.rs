@@ -190,7 +190,8 @@ impl SubsurfacePass {
         }
     }
 
-    /// Shows how light is gathered in place of the diffused irradiance, from the next [`prepare`](Self::prepare) on.
+    /// Shows how light is gathered in place of the diffused irradiance, or that again for `None`. Takes effect with the
+    /// next [`prepare`](Self::prepare) and the [`encode`](Self::encode) after it, so call it before both.
     pub fn set_debug_view(&mut self, view: Option<DebugView>) {
         self.debug_view = view;
     }

@@ -150,11 +150,11 @@ pub fn kernel_parts(compilation: &Compilation) -> KernelParts {
         unknown => panic!("{unknown} has no kind in the runtime"),
     };
     KernelParts {
-        wgsl: compilation.wgsl.clone(),
-        material_table: compilation.material_table.clone(),
-        material_names: compilation.material_names(),
-        profile_tables: compilation.profile_tables.clone(),
-        profile_curves: compilation.profile_curves.clone(),
+        wgsl: compilation.wgsl.clone().into(),
+        material_table: compilation.material_table.clone().into(),
+        material_names: compilation.material_names().into_iter().map(Into::into).collect(),
+        profile_tables: compilation.profile_tables.clone().into(),
+        profile_curves: compilation.profile_curves.clone().into(),
         curve_size: compilation.curve_size,
         kind,
         taps: compilation.kernel.taps(),

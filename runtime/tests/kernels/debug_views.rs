@@ -102,3 +102,19 @@ fn what_is_rejected_is_drawn_at_the_silhouette() {
         assert!(heat(34) > 2.0 * heat(17), "{kernel}: {} at the border, {} inside", heat(34), heat(17));
     }
 }
+
+#[test]
+fn the_variance_is_of_light_in_any_unit() {
+    let buffers = scene();
+    let view = SubsurfaceView::perspective_distances(0.5, SIZE[1]);
+    let mut diffuser = Diffuser::new(&Description::pair(Kernel::default()), Path::Compute);
+    let plain = diffuser.show(DebugView::Variance, &view, &buffers);
+    // Squares of either are no f32. Powers of two change no digit of what is not squared.
+    for factor in [2f32.powi(90), 2f32.powi(-70)] {
+        let mut scaled = buffers.clone();
+        for pixel in &mut scaled.irradiance {
+            *pixel = pixel.map(|value| value * factor);
+        }
+        assert!(diffuser.show(DebugView::Variance, &view, &scaled) == plain, "light times {factor:e}");
+    }
+}

@@ -23,7 +23,7 @@ fn curves_that_are_not_of_their_size_are_refused() {
         change(&mut parts);
         SubsurfaceKernel::new(parts).expect_err("curves of another size")
     };
-    let error = refused(&|parts| parts.profile_curves.truncate(bytes - 16));
+    let error = refused(&|parts| parts.profile_curves.to_mut().truncate(bytes - 16));
     let expected = KernelError::ProfileCurves { width, height, bytes: bytes - 16 };
     assert_eq!(error, expected);
     assert_eq!(
@@ -34,8 +34,11 @@ fn curves_that_are_not_of_their_size_are_refused() {
             bytes - 16
         )
     );
-    assert!(matches!(refused(&|parts| parts.profile_curves.clear()), KernelError::ProfileCurves { .. }));
-    let nothing = refused(&|parts| (parts.curve_size, parts.profile_curves) = ([0; 2], Vec::new()));
+    assert!(matches!(
+        refused(&|parts| parts.profile_curves.to_mut().clear()),
+        KernelError::ProfileCurves { .. }
+    ));
+    let nothing = refused(&|parts| (parts.curve_size, parts.profile_curves) = ([0; 2], Vec::new().into()));
     assert!(matches!(nothing, KernelError::ProfileCurves { bytes: 0, .. }), "{nothing}");
     let overflow = refused(&|parts| parts.curve_size = [u32::MAX; 2]);
     assert!(matches!(overflow, KernelError::ProfileCurves { .. }), "{overflow}");

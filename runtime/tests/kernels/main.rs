@@ -19,6 +19,7 @@ mod errors;
 mod footprints;
 mod hostile;
 mod leaks;
+mod material_table;
 mod mean_free_path_scale;
 mod paths;
 mod rejection;

@@ -4,7 +4,7 @@ use wgpu::util::DeviceExt as _;
 
 use crate::bindings::kernel::{
     BindGroup1, ENTRY_CLASSIFY_COMPUTE, ENTRY_FIRST_COMPUTE, ENTRY_SUBSURFACE_COMPUTE,
-    SubsurfaceComputeBindGroup2,
+    SubsurfaceComputeBindGroup2, WORKGROUP_CLASSIFY_COMPUTE,
 };
 use crate::error::SizeError;
 use crate::kernel::SubsurfaceKernel;
@@ -13,8 +13,8 @@ use crate::target::{Extent, Target};
 
 use super::intermediate::{Intermediate, intermediates, packed_pixels};
 
-/// Side of a tile, pixels: `TILE_SIDE` of the shaders.
-const TILE_SIDE: u32 = 16;
+/// Side of a tile, pixels: an invocation of the classification takes 2×2 of them.
+const TILE_SIDE: u32 = 2 * WORKGROUP_CLASSIFY_COMPUTE[0];
 
 /// Workgroups along x, y and z before a tile is listed.
 const NO_DISPATCH: [u32; 3] = [0, 0, 1];
@@ -142,8 +142,8 @@ impl ComputePath {
             "SubsurfacePass classification bind group",
         );
         let first_group = group(
-            unread,
-            [four_words, two_words, &pixels],
+            [&nothing, &nothing, &pixels],
+            [four_words, two_words, &unused_pixels],
             &unused_dispatch,
             "SubsurfacePass first stage bind group",
         );

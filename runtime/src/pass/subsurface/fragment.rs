@@ -1,8 +1,8 @@
 //! The fragment path.
 
 use crate::bindings::kernel::{
-    BindGroup1, ENTRY_FIRST_FRAGMENT, ENTRY_PASSTHROUGH_FRAGMENT, ENTRY_SUBSURFACE_FRAGMENT,
-    ENTRY_SUBSURFACE_VERTEX, SubsurfaceFragmentBindGroup2,
+    BindGroup1, ENTRY_FIRST_FRAGMENT, ENTRY_PACK_FRAGMENT, ENTRY_PASSTHROUGH_FRAGMENT,
+    ENTRY_SUBSURFACE_FRAGMENT, ENTRY_SUBSURFACE_VERTEX, SubsurfaceFragmentBindGroup2,
 };
 use crate::error::SizeError;
 use crate::kernel::SubsurfaceKernel;
@@ -10,12 +10,13 @@ use crate::kernel_kind::KernelKind;
 use crate::pass::{cleared, covering_pipeline};
 use crate::target::{Extent, TRANSLUCENT_STENCIL, Target};
 
-use super::intermediate::{Intermediate, intermediates};
+use super::intermediate::{Intermediate, intermediates, packed_pixels};
 
 /// Pipelines.
 #[derive(Debug)]
 pub(super) struct FragmentPath {
     kind: KernelKind,
+    pack: Option<wgpu::RenderPipeline>,
     first: Option<wgpu::RenderPipeline>,
     diffuse: wgpu::RenderPipeline,
     /// Copies what the stencil leaves out; without a stencil the one pipeline does both.
@@ -26,7 +27,10 @@ pub(super) struct FragmentPath {
 /// What depends on the frame's size.
 #[derive(Debug)]
 pub(super) struct FragmentFrame {
+    pixels: Target,
     intermediates: Vec<Target>,
+    /// Bound while pixels are packed.
+    pack_group: wgpu::BindGroup,
     /// Bound while the first stage writes the intermediates.
     first_group: wgpu::BindGroup,
     second_group: wgpu::BindGroup,
@@ -56,19 +60,24 @@ impl FragmentPath {
             )
         };
         let kind = kernel.kind();
-        let first = kind.has_two_stages().then(|| {
-            let targets: Vec<_> =
-                intermediates(kind).iter().map(|intermediate| Some(intermediate.format.into())).collect();
-            let entries = (ENTRY_SUBSURFACE_VERTEX, ENTRY_FIRST_FRAGMENT);
-            covering_pipeline(device, "SubsurfacePass first stage", module, entries, &layouts, &targets, None)
-        });
+        let before = |label, entry, targets: &[Intermediate]| {
+            let targets: Vec<_> = targets.iter().map(|target| Some(target.format.into())).collect();
+            let entries = (ENTRY_SUBSURFACE_VERTEX, entry);
+            covering_pipeline(device, label, module, entries, &layouts, &targets, None)
+        };
+        let pack = kind
+            .packs_pixels()
+            .then(|| before("SubsurfacePass packing", ENTRY_PACK_FRAGMENT, &[packed_pixels(kind)]));
+        let first = kind
+            .has_two_stages()
+            .then(|| before("SubsurfacePass first stage", ENTRY_FIRST_FRAGMENT, intermediates(kind)));
         let diffuse =
             pipeline("SubsurfacePass pipeline", ENTRY_SUBSURFACE_FRAGMENT, wgpu::CompareFunction::Equal);
         let passthrough = stencil.map(|_| {
             let label = "SubsurfacePass passthrough pipeline";
             pipeline(label, ENTRY_PASSTHROUGH_FRAGMENT, wgpu::CompareFunction::NotEqual)
         });
-        Self { kind, first, diffuse, passthrough, layout }
+        Self { kind, pack, first, diffuse, passthrough, layout }
     }
 
     /// Targets between the stages for frames of `size`.
@@ -78,19 +87,22 @@ impl FragmentPath {
             .iter()
             .map(|intermediate| intermediate.target(device, size, usage))
             .collect::<Result<Vec<_>, _>>()?;
+        let pixels = packed_pixels(self.kind).target(device, size, usage)?;
         let nothing = Intermediate::single(wgpu::TextureFormat::Rg32Uint, "SubsurfacePass nothing");
         let nothing = nothing.target(device, size, usage)?;
-        let group = |first: &Target, second: &Target, label| {
+        let group = |read: [&Target; 3], label| {
             SubsurfaceFragmentBindGroup2 {
-                intermediate_texture: &first.view,
-                second_intermediate_texture: &second.view,
+                intermediate_texture: &read[0].view,
+                second_intermediate_texture: &read[1].view,
+                pixel_texture: &read[2].view,
             }
             .create(device, &self.layout, label)
         };
-        let first_group = group(&nothing, &nothing, "SubsurfacePass first stage bind group");
+        let pack_group = group([&nothing; 3], "SubsurfacePass packing bind group");
+        let first_group = group([&nothing, &nothing, &pixels], "SubsurfacePass first stage bind group");
         let at = |index: usize| intermediates.get(index).unwrap_or(&nothing);
-        let second_group = group(at(0), at(1), "SubsurfacePass stage bind group");
-        Ok(FragmentFrame { intermediates, first_group, second_group })
+        let second_group = group([at(0), at(1), &pixels], "SubsurfacePass stage bind group");
+        Ok(FragmentFrame { pixels, intermediates, pack_group, first_group, second_group })
     }
 
     pub(super) fn encode(
@@ -101,6 +113,16 @@ impl FragmentPath {
         output: &wgpu::TextureView,
         depth_stencil: Option<&wgpu::TextureView>,
     ) {
+        if let Some(pack) = &self.pack {
+            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                label: Some("SubsurfacePass packing"),
+                color_attachments: &[cleared(&frame.pixels.view, wgpu::Color::TRANSPARENT)],
+                ..Default::default()
+            });
+            bind(&mut pass, groups, &frame.pack_group);
+            pass.set_pipeline(pack);
+            pass.draw(0..3, 0..1);
+        }
         if let Some(first) = &self.first {
             let mut attachments = [None, None];
             for (attachment, target) in attachments.iter_mut().zip(&frame.intermediates) {

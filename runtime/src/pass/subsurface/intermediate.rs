@@ -36,7 +36,7 @@ impl Intermediate {
 
 /// The textures of a kernel, in the order in which shaders name them.
 ///
-/// Per pixel of the frame `Interleaved` takes (16 + 8)/4 bytes, and 8 more on the compute path; `Separable` takes 8.
+/// Per pixel of the frame `Interleaved` takes (16 + 8)/4 bytes, and 8 for packed pixels; `Separable` takes 8.
 pub(super) fn intermediates(kind: KernelKind) -> &'static [Intermediate] {
     match kind {
         KernelKind::Interleaved => &[
@@ -60,8 +60,8 @@ pub(super) fn intermediates(kind: KernelKind) -> &'static [Intermediate] {
     }
 }
 
-/// The pixels that the first stage of a kernel packs for the second on the compute path.
+/// The pixels of the inputs as `Interleaved` packs them for its stages; one texel for the others.
 pub(super) fn packed_pixels(kind: KernelKind) -> Intermediate {
-    let side = if kind == KernelKind::Interleaved { 1 } else { 0 };
+    let side = if kind.packs_pixels() { 1 } else { 0 };
     Intermediate { format: wgpu::TextureFormat::Rg32Uint, side, label: "SubsurfacePass packed pixels" }
 }

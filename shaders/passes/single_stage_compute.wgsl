@@ -7,5 +7,5 @@ fn subsurface_compute(@builtin(workgroup_id) group: vec3u, @builtin(local_invoca
         return;
     }
     let own = textureLoad(irradiance_texture, pixel, 0);
-    textureStore(diffused_target, pixel, diffuse_dense(pixel, own));
+    textureStore(diffused_target, pixel, diffuse_single_stage(pixel, own));
 }
