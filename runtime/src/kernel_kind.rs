@@ -8,7 +8,7 @@ pub enum KernelKind {
     ImportanceSampled,
     /// Two passes along one axis each (Jimenez et al. 2015).
     Separable,
-    /// Near field exact, far field sampled once per 2×2 pixels and interleaved between them.
+    /// Near field per pixel, far field sampled once per 2×2 pixels and interleaved between them.
     Interleaved,
     /// Every pixel within the filter radius: the reference.
     Dense,

@@ -2,6 +2,7 @@
 
 use super::goal::{AtPsnr, CLOSER_DB, LARGEST_SHARE, OURS, Outcome, outcomes};
 use super::report::{Report, path_name};
+use super::{Contender as _, KernelContender, WITNESS};
 use crate::table::{Align, Table};
 use std::fmt::Write as _;
 
@@ -30,8 +31,20 @@ pub fn scores(report: &Report) -> String {
     }
     let mut text = format!("{}\n{table}", report.title());
     // Writing to a string cannot fail.
-    let _ =
-        writeln!(text, "dense, the reference, took {:.1} ms once, its pipeline included", report.dense_ms);
+    let _ = writeln!(
+        text,
+        "dense, the reference, took {:.1} ms once, its pipeline included; {} with {} taps agrees to {:.1} dB",
+        report.dense_ms,
+        KernelContender { kernel: WITNESS }.family(),
+        WITNESS.taps(),
+        report.witness_db
+    );
+    if report.is_reference_doubtful() {
+        text.push_str(
+            "warning: the reference does not hold, so the errors above say nothing. This driver may end long loops: \
+             try another adapter, smaller --footprints, or a profile that is no sum of Gaussians and no table\n",
+        );
+    }
     for declined in &report.declined {
         let _ = writeln!(text, "{} {} left out: {}", declined.family, declined.taps, declined.reason);
     }
