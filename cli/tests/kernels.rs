@@ -90,6 +90,7 @@ fn every_kernel_has_a_line_of_finite_figures() {
         "rmse_green",
         "rmse_blue",
         "psnr_db",
+        "witness_psnr_db",
         "milliseconds",
         "time_ratio",
         "adapter",

@@ -333,6 +333,7 @@ fn emit_choices(text: &mut String, choices: &Choices) {
             returned,
         ),
         ("Each pixel turns the two axes of the kernel.", "SEPARABLE_ROTATED", kernel.is_rotated()),
+        ("Stages read pixels that an earlier one packed.", "PACKS_PIXELS", kernel.packs_pixels()),
     ] {
         let _ = writeln!(text, "/// {docs}\nconst {name}: bool = {value};\n");
     }

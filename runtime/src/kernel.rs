@@ -114,8 +114,8 @@ impl SubsurfaceKernel {
         Ok(Self { parts })
     }
 
-    /// A kernel from generated Rust, whose parts fit by construction: nothing is checked. For parts from elsewhere there
-    /// is [`new`](Self::new).
+    /// A kernel from generated Rust, whose parts fit by construction: nothing is checked. For parts from elsewhere
+    /// there is [`new`](Self::new).
     pub fn from_generated(parts: KernelParts) -> Self {
         Self { parts }
     }
@@ -167,7 +167,8 @@ impl SubsurfaceKernel {
 
     /// Bytes of one row.
     pub fn material_stride(&self) -> usize {
-        self.parts.material_table.len() / self.parts.material_names.len()
+        // Unchecked parts may name no material.
+        self.parts.material_table.len() / self.parts.material_names.len().max(1)
     }
 
     /// Names by material number.

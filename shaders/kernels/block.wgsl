@@ -66,16 +66,13 @@ struct BlockTexels {
     @location(1) ring: vec2u,
 }
 
-/// The texels of a block. Nine bits per number do, since a pixel mixes four blocks.
+/// The texels of a block. Nine bits per number do, since a pixel mixes several blocks.
 fn block_texels(light: BlockLight, block: Block) -> BlockTexels {
+    // The mean, not the sum: then what rounding does to the weight changes no constant irradiance.
+    let mean = light.far.irradiance / max(light.far.weight, vec3f(SMALLEST_WEIGHT));
+    let lit = pack_lit_surface(InputSurface(block.distance_mm, block.material), mean);
     return BlockTexels(
-        vec4u(
-            // The mean, not the sum: then what rounding does to the weight changes no constant irradiance.
-            pack_shared_exponent(light.far.irradiance / max(light.far.weight, vec3f(SMALLEST_WEIGHT))),
-            pack_shared_exponent(light.far.weight),
-            pack_shared_exponent(light.near.centre),
-            pack_surface(InputSurface(block.distance_mm, block.material)),
-        ),
+        vec4u(lit.x, pack_shared_exponent(light.far.weight), pack_shared_exponent(light.near.centre), lit.y),
         vec2u(pack_shared_exponent(light.near.beside), pack_shared_exponent(light.near.across)),
     );
 }
@@ -97,6 +94,6 @@ fn load_far_field(blocks: texture_2d<u32>, block: vec2i) -> FarField {
     }
     let words = textureLoad(blocks, block, 0);
     let weight = unpack_shared_exponent(words.y);
-    let light = Gathered(weight * unpack_shared_exponent(words.x), weight);
+    let light = Gathered(weight * unpack_irradiance(words.xw), weight);
     return FarField(unpack_surface(words.w), light, unpack_shared_exponent(words.z));
 }

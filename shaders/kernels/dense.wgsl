@@ -5,8 +5,8 @@
 const DENSE_QUANTILE: f32 = 0.999;
 
 /// Largest radius, pixels: beyond it light is renormalized, and the loops stay bounded. There is a software driver that
-/// ends an invocation's loops after 65536 rounds in all: this keeps below, but for profiles which loop themselves (Gaussian
-/// sums, tables) only radii up to about 30 pixels do.
+/// ends an invocation's loops after 65536 rounds in all: this keeps below, but for profiles which loop themselves
+/// (Gaussian sums, tables) only radii up to about 30 pixels do.
 const DENSE_LARGEST_RADIUS: f32 = 120.0;
 
 /// Pixels around the centre, along each axis, whose share is integrated over their area.
@@ -46,7 +46,7 @@ fn dense_light(point: SurfacePoint, centre: vec2i, position: vec2i, radius: i32)
         return Gathered(vec3f(0.0), vec3f(0.0));
     }
     let depth_mm = depth_difference_mm(point, pixel.distance_mm);
-    let by_normal = accepted_by_normal(point.normal, position, pixel.distance_mm, point.span_mm);
+    let by_normal = accepted_by_normal(point.normal, position, point.span_mm);
     let weight = by_normal * pixel_share(point, apart, depth_mm);
     return Gathered(weight * pixel.irradiance, weight);
 }

@@ -7,7 +7,7 @@ const FAR_STRETCH: f32 = 1.2;
 /// Share of the stretched profile that is sampled; what lies beyond is renormalized.
 const FAR_QUANTILE: f32 = 0.98;
 
-/// Slices of the common lattice: one for each block of 2×2 blocks, which are those that a pixel mixes.
+/// Slices of the common lattice: one for each block of any 2×2 blocks.
 const LATTICE_SLICES: f32 = 4.0;
 
 /// The golden ratio's fraction, turns: from one frame to the next.
@@ -20,7 +20,8 @@ fn lattice_slice(block: vec2i) -> f32 {
 
 /// Light that enters `point`, the middle of a block, from beyond the disc of nine pixels, as packed `pixels` have it.
 ///
-/// Slices differ by a quarter of a stratum in radius and by a quarter turn; frames by the golden ratio's part of a turn.
+/// Slices differ by a quarter of a stratum in radius and by a quarter turn; frames by the golden ratio's part of a
+/// turn.
 fn gather_far_field(
     pixels: texture_2d<u32>,
     point: SurfacePoint,

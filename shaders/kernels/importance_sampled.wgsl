@@ -52,7 +52,7 @@ fn light_of_tap(point: SurfacePoint, quantile: vec2f, position: vec2i, pixel: In
     let path_mm = sqrt(radius_mm * radius_mm + depth_mm * depth_mm);
     // 1 / p(r) = 2πr · dr/du.
     let ratio = channel_area_pdf(point.profiles, path_mm) * (TAU * radius_mm * quantile.y);
-    let normal_share = accepted_by_normal(point.normal, position, pixel.distance_mm, point.span_mm);
+    let normal_share = accepted_by_normal(point.normal, position, point.span_mm);
     let weight = min(ratio, vec3f(LARGEST_WEIGHT)) * normal_share;
     return Gathered(weight * pixel.irradiance, weight);
 }

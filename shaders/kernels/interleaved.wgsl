@@ -9,8 +9,8 @@
 // so noise and blur of the sampling touch only what is smooth at the scale of a block. Each block takes one slice in
 // four of a common lattice. A pixel mixes the far fields that its window touches, where material and depth agree.
 
-/// Shares of a window in the blocks along an axis: in the block on the pixel's farther side, in its own, and on its nearer
-/// side. The pixel lies a quarter of a block off the middle of its own.
+/// Shares of a window in the blocks along an axis: in the block on the pixel's farther side, in its own, and on its
+/// nearer side. The pixel lies a quarter of a block off the middle of its own.
 ///
 /// This window is as wide as two blocks: wherever the pixel lies, every slice has a quarter of it.
 const EVEN_WINDOW: vec3f = vec3f(0.125, 0.5, 0.375);
@@ -49,14 +49,18 @@ fn load_far_fields(blocks: texture_2d<u32>, home: vec2i) -> FarFields {
     );
 }
 
-/// Light that far fields send to a pixel, with the centre's share, and how much of the window it comes from.
+/// What the far fields under a window hold together.
 struct Mixture {
-    light: Gathered,
-    share: f32,
+    /// Their light.
+    far: Gathered,
+    /// Share of the centre.
+    centre: vec3f,
+    /// The part of the window that agrees with the pixel.
+    window: f32,
 }
 
-/// Shares of the window in the blocks before a pixel's own along an axis, in it and behind it. `side` is −1 for the first
-/// pixel of a block and 1 for the second.
+/// Shares of the window in the blocks before a pixel's own along an axis, in it and behind it. `side` is −1 for the
+/// first pixel of a block and 1 for the second.
 fn window_shares(side: i32, taps: u32) -> vec3f {
     let window = mix(LINEAR_WINDOW, EVEN_WINDOW, min(EVEN_WINDOW_TAPS / f32(max(taps, 1u)), 1.0));
     return select(window.zyx, window, side > 0);
@@ -74,24 +78,28 @@ fn far_field_agreement(at: Receiver, field: FarField) -> f32 {
 /// `mixture` with the part `share` of a field, as far as it agrees with the pixel.
 fn with_field(mixture: Mixture, at: Receiver, field: FarField, share: f32) -> Mixture {
     let agreed = share * far_field_agreement(at, field);
-    let centre = at.own_counts * field.centre;
-    let light = Gathered(
-        agreed * (field.light.irradiance + centre * at.own),
-        agreed * (field.light.weight + centre),
-    );
-    return Mixture(together(mixture.light, light), mixture.share + agreed);
+    let far = Gathered(agreed * field.light.irradiance, agreed * field.light.weight);
+    return Mixture(together(mixture.far, far), mixture.centre + agreed * field.centre, mixture.window + agreed);
 }
 
 /// `mixture` with three fields that lie side by side.
-fn with_row(mixture: Mixture, at: Receiver, left: FarField, middle: FarField, right: FarField, shares: vec3f) -> Mixture {
+fn with_row(
+    mixture: Mixture,
+    at: Receiver,
+    left: FarField,
+    middle: FarField,
+    right: FarField,
+    shares: vec3f,
+) -> Mixture {
     let begun = with_field(mixture, at, left, shares.x);
     return with_field(with_field(begun, at, middle, shares.y), at, right, shares.z);
 }
 
-/// Irradiance of a pixel after it has diffused, with `taps` taps per pixel; `side` says which of its block's pixels it is.
+/// Irradiance of a pixel after it has diffused, with `taps` taps per pixel; `side` says which of its block's pixels it
+/// is.
 ///
-/// The ring is summed with the shares `beside` and `across` of the pixel's own block. A pixel that agrees with no block,
-/// such as one of a strand as thin as a pixel, keeps its own light.
+/// The ring is summed with the shares `beside` and `across` of the pixel's own block. A pixel that agrees with no
+/// block, such as one of a strand as thin as a pixel, keeps its own light.
 fn diffuse_interleaved(
     at: Receiver,
     side: vec2i,
@@ -103,17 +111,20 @@ fn diffuse_interleaved(
 ) -> vec3f {
     let columns = window_shares(side.x, taps);
     let rows = window_shares(side.y, taps);
-    let nothing = Mixture(Gathered(vec3f(0.0), vec3f(0.0)), 0.0);
+    let nothing = Mixture(Gathered(vec3f(0.0), vec3f(0.0)), vec3f(0.0), 0.0);
     let above = with_row(nothing, at, fields.above_left, fields.above, fields.above_right, rows.x * columns);
     let upper = with_row(above, at, fields.left, fields.home, fields.right, rows.y * columns);
     let mixture = with_row(upper, at, fields.below_left, fields.below, fields.below_right, rows.z * columns);
-    if mixture.share == 0.0 {
+    if mixture.window == 0.0 {
         return at.own;
     }
-    // Quotients, not products with a reciprocal: where all light stays at the centre they give it back as it was.
-    let near_and_far = Gathered(mixture.light.irradiance / mixture.share, mixture.light.weight / mixture.share);
+    // A quotient, not a product with a reciprocal: where all light stays at the centre this is 1, and gives it back as
+    // it was.
+    let centre = at.own_counts * (mixture.centre / mixture.window);
+    let near = Gathered(centre * at.own, centre);
+    let far = Gathered(mixture.far.irradiance / mixture.window, mixture.far.weight / mixture.window);
     // The ring's shares are those of the pixel's own block, so they count only where it agrees.
     let counts = select(0.0, 1.0, far_field_agreement(at, fields.home) > 0.0);
     let middle = ring_light(at, ring, counts * beside, counts * across);
-    return diffused_irradiance(together(near_and_far, middle), at.own);
+    return diffused_irradiance(together(together(near, far), middle), at.own);
 }

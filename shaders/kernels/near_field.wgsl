@@ -87,7 +87,7 @@ fn pixel_light(at: Receiver, pixel: InputPixel, apart: vec2i, share: vec3f) -> G
     let squared_radius = f32(dot(apart, apart));
     let on_surface = depth_agreement(pixel.distance_mm, at.surface.distance_mm, at.span_mm);
     let by_depth = on_surface * squared_radius / (squared_radius + steps * steps);
-    let by_normal = accepted_by_normal(at.normal, at.position + apart, pixel.distance_mm, at.span_mm);
+    let by_normal = accepted_by_normal(at.normal, at.position + apart, at.span_mm);
     let weight = share * select(by_depth * by_normal, 0.0, is_other || pixel.material == NO_MATERIAL);
     return Gathered(weight * pixel.irradiance, weight);
 }

@@ -12,21 +12,23 @@ fn depth_difference_mm(point: SurfacePoint, distance_mm: f32) -> f32 {
 }
 
 /// Share of a tap's light that its normal lets through, beside a surface of `normal`: the cosine between the two.
-fn accepted_by_normal(normal: vec3f, position: vec2i, distance_mm: f32, span_mm: f32) -> f32 {
+fn accepted_by_normal(normal: vec3f, position: vec2i, span_mm: f32) -> f32 {
     if !REJECT_BY_NORMAL {
         return 1.0;
     }
-    return max(dot(normal, surface_normal(position, distance_mm, span_mm)), 0.0);
+    return max(dot(normal, surface_normal(position, span_mm)), 0.0);
 }
 
 /// Normal of the surface at `position`, towards the viewer, in a frame of pixel columns, pixel rows and the view axis;
 /// zero unless normals reject.
 ///
 /// From the depths beside it; the side with the smaller step counts, so that a silhouette does not bend it.
-fn surface_normal(position: vec2i, distance_mm: f32, span_mm: f32) -> vec3f {
+fn surface_normal(position: vec2i, span_mm: f32) -> vec3f {
     if !REJECT_BY_NORMAL {
         return vec3f(0.0);
     }
+    // Of the inputs, all three: packed distances and those of blocks are rounded, and steps are small.
+    let distance_mm = input_surface(position).distance_mm;
     let steps = vec2f(
         depth_step_mm(position, vec2i(1, 0), distance_mm),
         depth_step_mm(position, vec2i(0, 1), distance_mm),
@@ -64,8 +66,8 @@ const SMALLEST_ENERGY: f32 = 1e-3;
 /// A weight below this divides nothing.
 const SMALLEST_WEIGHT: f32 = 1e-12;
 
-/// Diffused irradiance from what was gathered. Missing energy is renormalized or, if the policy says so, returned to the
-/// centre.
+/// Diffused irradiance from what was gathered. Missing energy is renormalized or, if the policy says so, returned to
+/// the centre.
 fn diffused_irradiance(gathered: Gathered, own: vec3f) -> vec3f {
     let least = select(SMALLEST_ENERGY, 1.0, RETURN_TO_CENTRE);
     let returned = max(vec3f(least) - gathered.weight, vec3f(0.0));

@@ -69,7 +69,7 @@ fn surface_point(
         channel_profile(profiles, widest),
         widest,
         max(reach.r, max(reach.g, reach.b)) / pixel_mm,
-        surface_normal(vec2i(position), distance_mm, span),
+        surface_normal(vec2i(position), span),
     );
 }
 

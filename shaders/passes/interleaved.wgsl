@@ -1,6 +1,3 @@
-/// What a pixel gives the later stages is packed.
-const PACKS_PIXELS: bool = true;
-
 /// A pixel of a block.
 struct BlockPixel {
     surface: InputSurface,

@@ -57,7 +57,8 @@ fn ring_of_third(above: PixelRow, row: PixelRow, below: PixelRow) -> Ring {
     );
 }
 
-/// Diffuses the light of the pixel on `side` of block `home`, whose words are `own`, and stores it, if it is translucent.
+/// Diffuses the light of the pixel on `side` of block `home`, whose words are `own`, and stores it, if it is
+/// translucent.
 fn store_diffused(
     home: vec2i,
     side: vec2i,
@@ -67,12 +68,13 @@ fn store_diffused(
     beside: vec3f,
     across: vec3f,
 ) {
-    if own.y == 0u {
+    let surface = unpack_surface(own.y);
+    if surface.material == NO_MATERIAL {
         return;
     }
     let pixel = BLOCK_SIDE * home + (side + 1) / 2;
     let texel = textureLoad(irradiance_texture, pixel, 0);
-    let at = receiver_at(pixel, unpack_surface(own.y), texel);
+    let at = receiver_at(pixel, surface, texel);
     let diffused = diffuse_interleaved(at, side, subsurface_view.taps, fields, ring, beside, across);
     textureStore(diffused_target, pixel, vec4f(diffused, texel.a));
 }

@@ -1,8 +1,5 @@
-/// Stages read the inputs as they are.
-const PACKS_PIXELS: bool = false;
-
-/// Light gathered along `axis` at the point; `is_second` tells the second pass, which reads `blurred`, what the first one
-/// left. The centre's own light counts unless it was not finite.
+/// Light gathered along `axis` at the point; `is_second` tells the second pass, which reads `blurred`, what the first
+/// one left. The centre's own light counts unless it was not finite.
 fn gather_line(
     point: SurfacePoint,
     surface: MaterialSurface,
@@ -35,7 +32,7 @@ fn gather_line(
             }
             let depth_mm = depth_difference_mm(point, pixel.distance_mm);
             let share = line_share(surface, point.profiles, beyond_middle, offset_mm, depth_mm);
-            let weight = strip * share * accepted_by_normal(point.normal, position, pixel.distance_mm, point.span_mm);
+            let weight = strip * share * accepted_by_normal(point.normal, position, point.span_mm);
             gathered = together(gathered, Gathered(weight * pixel.irradiance, weight));
         }
         beyond_edge = beyond_next;
@@ -55,15 +52,23 @@ fn line_pixel(position: vec2i, blurred: texture_2d<u32>, is_second: bool) -> Inp
     return InputPixel(unpack_line(textureLoad(blurred, position, 0).rg), surface.distance_mm, surface.material);
 }
 
-/// What the first pass keeps of a pixel: half floats.
+/// What the first pass keeps of a pixel: three mantissas of 16 bits with the exponent of the brightest, so that any
+/// irradiance fits.
 fn pack_line(irradiance: vec3f) -> vec2u {
-    let limited = min(irradiance, vec3f(LARGEST_HALF));
-    return vec2u(pack2x16float(limited.rg), pack2x16float(vec2f(limited.b, 0.0)));
+    let brightest = max(irradiance.r, max(irradiance.g, irradiance.b));
+    let exponent = max(bitcast<u32>(brightest) >> 23u, SMALLEST_LINE_EXPONENT);
+    let steps = bitcast<f32>((127u + 142u - exponent) << 23u);
+    let mantissas = min(vec3u(round(irradiance * steps)), vec3u(0xffffu));
+    return vec2u(mantissas.r | (mantissas.g << 16u), mantissas.b | (exponent << 16u));
 }
+
+/// Smallest exponent of a packed line, with the bias of f32: its steps are the smallest that are normal numbers.
+const SMALLEST_LINE_EXPONENT: u32 = 16u;
 
 /// The irradiance that `pack_line` packed.
 fn unpack_line(words: vec2u) -> vec3f {
-    return vec3f(unpack2x16float(words.x), unpack2x16float(words.y).x);
+    let step = bitcast<f32>(((words.y >> 16u) - 15u) << 23u);
+    return step * vec3f(vec3u(words.x, words.x >> 16u, words.y) & vec3u(0xffffu));
 }
 
 /// Irradiance of the pixel after the first pass.

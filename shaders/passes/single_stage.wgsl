@@ -3,9 +3,6 @@
 //     fn gather_at(point: SurfacePoint, pixel: vec2i) -> Gathered     light for the point that `pixel` shows
 //     fn taps_at(point: SurfacePoint) -> f32                          taps per pixel, for the debug view
 
-/// Stages read the inputs as they are.
-const PACKS_PIXELS: bool = false;
-
 /// Diffused irradiance at `pixel`, whose texel of the irradiance is `own`; a pixel that does not scatter keeps it.
 fn diffuse_single_stage(pixel: vec2i, own: vec4f) -> vec4f {
     let surface = input_surface(pixel);

@@ -78,7 +78,8 @@ fn surface_point_at(position: vec2i, surface: InputSurface) -> SurfacePoint {
 /// The pixel at `position`, which shows `surface` and whose texel of the irradiance is `texel`.
 fn receiver_at(position: vec2i, surface: InputSurface, texel: vec4f) -> Receiver {
     let span = span_mm(subsurface_view, surface.distance_mm);
-    let normal = surface_normal(position, surface.distance_mm, span);
+    // The limit of the pixels around: a constant irradiance stays one.
+    let own = min(finite_irradiance(texel.rgb), vec3f(LARGEST_PACKED_IRRADIANCE));
     let own_counts = select(0.0, 1.0, is_finite_rgb(texel.rgb));
-    return Receiver(position, surface, span, normal, finite_irradiance(texel.rgb), own_counts);
+    return Receiver(position, surface, span, surface_normal(position, span), own, own_counts);
 }

@@ -56,11 +56,15 @@ fn classify_compute(
     @builtin(local_invocation_index) index: u32,
 ) {
     let first = 2 * vec2i(invocation.xy);
-    let upper_scatters = any(vec2<bool>(classify_pixel(first), classify_pixel(first + vec2i(1, 0))));
-    let lower_scatters = any(vec2<bool>(classify_pixel(first + vec2i(0, 1)), classify_pixel(first + vec2i(1, 1))));
-    if upper_scatters || lower_scatters {
+    // All four, whatever the first one says: each is copied or packed.
+    let upper_left = classify_pixel(first);
+    let upper_right = classify_pixel(first + vec2i(1, 0));
+    let lower_left = classify_pixel(first + vec2i(0, 1));
+    let lower_right = classify_pixel(first + vec2i(1, 1));
+    if upper_left || upper_right || lower_left || lower_right {
         atomicStore(&tile_is_occupied, 1u);
     }
+    // A barrier, and the same answer for the whole workgroup. (Atomics came to this function in April 2025.)
     if workgroupUniformLoad(&tile_is_occupied) == 0u {
         // Later stages leave this tile out: it must not keep the light of an earlier frame.
         textureStore(four_word_target, vec2i(invocation.xy), vec4u(0u));

@@ -73,10 +73,10 @@ pub const KERNELS: &[Module] = modules![
 
 /// Passes with their bindings and entry points.
 ///
-/// Linked with the parts of the subsurface pass that all kernels share, `passes/<kernel>` is the fragment path of a kernel
-/// and `passes/<kernel>_compute` its compute path. Kernels of one stage share both, `passes/single_stage` and
-/// `passes/single_stage_compute`, and their `passes/<kernel>` holds what differs. The parts of two kernels bear the same
-/// names.
+/// Linked with the parts of the subsurface pass that all kernels share, `passes/<kernel>` is the fragment path of a
+/// kernel and `passes/<kernel>_compute` its compute path. Kernels of one stage share both, `passes/single_stage` and
+/// `passes/single_stage_compute`, and their `passes/<kernel>` holds what differs. The parts of two kernels bear the
+/// same names.
 pub const PASSES: &[Module] = modules![
     "passes/composite",
     "passes/dense",

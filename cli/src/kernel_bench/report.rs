@@ -86,9 +86,9 @@ impl Report {
 
     /// Whether the reference picture may be wrong.
     ///
-    /// With sixty times the taps of the yardstick the witness comes much closer than that, or as close as anybody; where it
-    /// does neither, it is `Dense` that did not sum to the end, as on drivers that stop a shader after some rounds of its
-    /// loops.
+    /// With sixty times the taps of the yardstick the witness comes much closer than that, or as close as anybody;
+    /// where it does neither, it is `Dense` that did not sum to the end, as on drivers that stop a shader after some
+    /// rounds of its loops.
     pub fn is_reference_doubtful(&self) -> bool {
         let yardstick_db = self.lines.first().map_or(f64::NEG_INFINITY, |line| line.score.psnr_db);
         self.witness_db < (yardstick_db + CLOSER_THAN_YARDSTICK_DB).min(CLOSE_DB)

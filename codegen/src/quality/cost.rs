@@ -4,8 +4,8 @@ use crate::kernel::Kernel;
 
 /// Time per pixel in units of one tap of `ImportanceSampled`.
 ///
-/// Lines through the times that `cargo bench --bench kernels` gives for Burley's profile at a mean radius of 5 pixels on
-/// a software driver, where a tap costs what it computes. They only order the search: a GPU has other figures.
+/// Lines through the times that `cargo bench --bench kernels` gives for Burley's profile at a mean radius of 5 pixels
+/// on a software driver, where a tap costs what it computes. They only order the search: a GPU has other figures.
 pub(super) fn cost(kernel: Kernel) -> f64 {
     match kernel {
         // What a pixel sets up is worth eight taps.

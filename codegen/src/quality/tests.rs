@@ -224,7 +224,8 @@ fn a_footprint_below_a_pixel_changes_nothing() {
 
 #[test]
 fn the_mean_over_all_phases_is_closer_than_the_error() {
-    // The turns of pixels are noise about the exact result: over the phases of a patch most of it goes (measured: half).
+    // The turns of pixels are noise about the exact result: over the phases of a patch most of it goes (measured:
+    // half).
     let optics = optics_of(&[SKIN]);
     let kernel = Kernel::ImportanceSampled { taps: 8 };
     let point = Point::new(&optics[0], 10.0, true, false);

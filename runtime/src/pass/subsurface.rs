@@ -31,8 +31,8 @@ pub struct SubsurfaceInputs<'a> {
     /// values mean.
     pub depth: &'a wgpu::TextureView,
     /// Depth-stencil texture whose stencil marks translucent pixels with
-    /// [`TRANSLUCENT_STENCIL`](crate::TRANSLUCENT_STENCIL): saves work on the fragment path. It is only read, and may be
-    /// the texture whose depth aspect is `depth`. The compute path goes by the material number alone.
+    /// [`TRANSLUCENT_STENCIL`](crate::TRANSLUCENT_STENCIL): saves work on the fragment path. It is only read, and may
+    /// be the texture whose depth aspect is `depth`. The compute path goes by the material number alone.
     pub depth_stencil: Option<&'a wgpu::TextureView>,
     /// Factor on the mean free path per pixel, in the first component, from 0.001 to 1000: any float format. A texture
     /// of one pixel holds for all; `None` is 1 everywhere.

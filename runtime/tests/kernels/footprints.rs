@@ -12,8 +12,10 @@ fn no_taps_and_a_footprint_below_a_pixel_return_the_input() {
             let description = Description::on_path(kernel, path);
             let mut diffuser = Diffuser::new(&description, path);
             for (material, stem) in (0..).zip(&description.stems) {
-                let buffers =
-                    Buffers::plane([19, 14], material).lit(|x, y| [(x % 5) as f32, (y % 3) as f32, 1.0]);
+                // Tilted, and lit by numbers that no short sum hits: the input comes back bit by bit.
+                let buffers = Buffers::plane([19, 14], material)
+                    .lit(|x, y| [0, 1, 2].map(|salt| 1.7 * noise(x, y, salt)))
+                    .distant(|x, y| 500.0 + 0.1 * x as f32 - 0.07 * y as f32);
                 // Half a pixel: curves are straight between their steps and mixed between surface albedos, and the last
                 // bins of a table are wide.
                 let below_a_pixel = 2.0 * widest_radius_mm(stem, 0.997) as f32;

@@ -17,8 +17,8 @@ pub enum Path {
 pub enum PathError {
     /// No compute shaders, or too small ones.
     #[error(
-        "the device has no compute shaders of 256 invocations with four storage buffers and four storage textures: use \
-         Path::Fragment"
+        "the device has no compute shaders of 256 invocations with four storage textures and up to four storage \
+         buffers: use Path::Fragment"
     )]
     NoCompute,
     /// The kernel's compute shaders write another format.
@@ -41,12 +41,14 @@ pub(super) fn check_compute(
     format: wgpu::TextureFormat,
 ) -> Result<(), PathError> {
     let limits = device.limits();
-    // Storage buffers: the parameter table of a large set, profile tables, the tiles, arguments of the dispatch.
+    // The tiles, the arguments of the dispatch, and what of the kernel's own lies in storage buffers.
+    let storage_buffers =
+        2 + u32::from(!kernel.has_uniform_material_table()) + u32::from(!kernel.profile_tables().is_empty());
     let large_enough = limits.max_compute_invocations_per_workgroup >= 256
         && limits.max_compute_workgroup_size_x >= 16
         && limits.max_compute_workgroup_size_y >= 16
         && limits.max_compute_workgroups_per_dimension >= 65535
-        && limits.max_storage_buffers_per_shader_stage >= 4
+        && limits.max_storage_buffers_per_shader_stage >= storage_buffers
         && limits.max_storage_textures_per_shader_stage >= 4;
     if !large_enough {
         return Err(PathError::NoCompute);
