@@ -26,15 +26,16 @@ struct BlockLight {
     near: NearField,
 }
 
-/// Share of a far field at `distance_mm` that counts for a point: 1 on its surface, 0 from BLOCK_DEPTH_PIXELS on.
+/// Reciprocal of the depth difference up to which pixels belong together, mm⁻¹; 0 where distance does not reject.
+fn depth_scale(span_mm: f32) -> f32 {
+    return select(0.0, 1.0 / (BLOCK_DEPTH_PIXELS * span_mm), REJECT_BY_DISTANCE);
+}
+
+/// Share of what lies `apart` in depth that counts: 1 on the surface itself, 0 from 1 on, which is BLOCK_DEPTH_PIXELS.
 ///
 /// A parabola: as good as the Gaussian that it stands for, without an exponential.
-fn depth_agreement(distance_mm: f32, of_point_mm: f32, span_mm: f32) -> f32 {
-    if !REJECT_BY_DISTANCE {
-        return 1.0;
-    }
-    let steps = (distance_mm - of_point_mm) / (BLOCK_DEPTH_PIXELS * span_mm);
-    return max(1.0 - steps * steps, 0.0);
+fn depth_agreement(apart: f32) -> f32 {
+    return max(1.0 - apart * apart, 0.0);
 }
 
 /// Far and near field of a block whose middle is `point`, among packed `pixels`.

@@ -72,7 +72,7 @@ fn far_field_agreement(at: Receiver, field: FarField) -> f32 {
     if field.surface.material == NO_MATERIAL || is_other {
         return 0.0;
     }
-    return depth_agreement(field.surface.distance_mm, at.surface.distance_mm, at.span_mm);
+    return depth_agreement(at.depth_scale * (field.surface.distance_mm - at.surface.distance_mm));
 }
 
 /// `mixture` with the part `share` of a field, as far as it agrees with the pixel.

@@ -38,6 +38,8 @@ struct Receiver {
     surface: InputSurface,
     /// Millimetres that a pixel spans there.
     span_mm: f32,
+    /// See `depth_scale`.
+    depth_scale: f32,
     /// See `surface_normal`.
     normal: vec3f,
     /// Its irradiance before.
@@ -82,11 +84,11 @@ fn ring_light(at: Receiver, ring: Ring, beside: vec3f, across: vec3f) -> Gathere
 /// Light of one pixel of the ring, `apart` from the centre, whose share on a flat surface is `share`.
 fn pixel_light(at: Receiver, pixel: InputPixel, apart: vec2i, share: vec3f) -> Gathered {
     let is_other = REJECT_BY_MATERIAL && pixel.material != at.surface.material;
-    let steps = select(0.0, (pixel.distance_mm - at.surface.distance_mm) / at.span_mm, REJECT_BY_DISTANCE);
+    let apart_in_depth = at.depth_scale * (pixel.distance_mm - at.surface.distance_mm);
+    let steps = BLOCK_DEPTH_PIXELS * apart_in_depth;
     // Close to the centre profiles fall about as r^-2 or slower: what depth leaves of the flat share.
     let squared_radius = f32(dot(apart, apart));
-    let on_surface = depth_agreement(pixel.distance_mm, at.surface.distance_mm, at.span_mm);
-    let by_depth = on_surface * squared_radius / (squared_radius + steps * steps);
+    let by_depth = depth_agreement(apart_in_depth) * squared_radius / (squared_radius + steps * steps);
     let by_normal = accepted_by_normal(at.normal, at.position + apart, at.span_mm);
     let weight = share * select(by_depth * by_normal, 0.0, is_other || pixel.material == NO_MATERIAL);
     return Gathered(weight * pixel.irradiance, weight);

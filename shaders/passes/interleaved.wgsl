@@ -43,12 +43,12 @@ fn first_surface(a: InputSurface, b: InputSurface) -> InputSurface {
     return a;
 }
 
-/// 1 for a pixel of the block's surface `first`, 0 for another.
-fn membership(pixel: BlockPixel, first: InputSurface, span_mm: f32) -> f32 {
+/// 1 for a pixel of the block's surface `first`, 0 for another; `per_mm` is the `depth_scale` there.
+fn membership(pixel: BlockPixel, first: InputSurface, per_mm: f32) -> f32 {
     if pixel.surface.material != first.material {
         return 0.0;
     }
-    return sign(depth_agreement(pixel.surface.distance_mm, first.distance_mm, span_mm));
+    return sign(depth_agreement(per_mm * (pixel.surface.distance_mm - first.distance_mm)));
 }
 
 /// The pixels of a block that are of its first translucent pixel's material and depth, as one surface.
@@ -58,12 +58,12 @@ fn block_of(block: vec2i, pixels: BlockPixels) -> Block {
     if first.material == NO_MATERIAL {
         return Block(vec2f(0.0), NO_MATERIAL, 0.0, vec3f(0.0), 1.0);
     }
-    let span = span_mm(subsurface_view, first.distance_mm);
+    let per_mm = depth_scale(span_mm(subsurface_view, first.distance_mm));
     let members = vec4f(
-        membership(pixels.a, first, span),
-        membership(pixels.b, first, span),
-        membership(pixels.c, first, span),
-        membership(pixels.d, first, span),
+        membership(pixels.a, first, per_mm),
+        membership(pixels.b, first, per_mm),
+        membership(pixels.c, first, per_mm),
+        membership(pixels.d, first, per_mm),
     );
     let shares = members / dot(members, vec4f(1.0));
     let surface = material_table[first.material].surface;

@@ -81,5 +81,6 @@ fn receiver_at(position: vec2i, surface: InputSurface, texel: vec4f) -> Receiver
     // The limit of the pixels around: a constant irradiance stays one.
     let own = min(finite_irradiance(texel.rgb), vec3f(LARGEST_PACKED_IRRADIANCE));
     let own_counts = select(0.0, 1.0, is_finite_rgb(texel.rgb));
-    return Receiver(position, surface, span, surface_normal(position, span), own, own_counts);
+    let normal = surface_normal(position, span);
+    return Receiver(position, surface, span, depth_scale(span), normal, own, own_counts);
 }

@@ -63,12 +63,19 @@ impl Explain for DeviceError {
 
 impl Device {
     /// Opens the strongest adapter; `WGPU_BACKEND` and `WGPU_ADAPTER_NAME` choose another.
+    ///
+    /// The arguments of indirect dispatches are not checked by wgpu, unless `WGPU_VALIDATION_INDIRECT_CALL` is set: that
+    /// takes a dispatch more for each, and those of the subsurface pass keep to the smallest limits by themselves.
     pub fn open() -> Result<Self, DeviceError> {
         pollster::block_on(Self::request())
     }
 
     async fn request() -> Result<Self, DeviceError> {
-        let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env());
+        let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle_from_env();
+        if std::env::var_os("WGPU_VALIDATION_INDIRECT_CALL").is_none() {
+            descriptor.flags.remove(wgpu::InstanceFlags::VALIDATION_INDIRECT_CALL);
+        }
+        let instance = wgpu::Instance::new(descriptor);
         let adapter = match wgpu::util::initialize_adapter_from_env(&instance, None).await {
             Ok(adapter) => adapter,
             Err(_) => {
