@@ -110,7 +110,7 @@ fn every_kernel_has_a_line_of_finite_figures() {
     }
     for line in &lines[1..] {
         assert_eq!(line[column("translucent_pixels")], (28 * 28).to_string());
-        for name in &head[5..18] {
+        for name in &head[5..19] {
             let value: f64 = line[column(name)].parse().unwrap();
             assert!(value.is_finite() && value > 0.0, "{name} is {value} in {line:?}");
         }

@@ -10,7 +10,7 @@ use std::fmt;
 #[non_exhaustive]
 pub enum Kernel {
     /// Radii drawn from the profile by low-discrepancy points, every tap weighted per channel (Liang et al. 2023,
-    /// eq. 19 to 22). Noise falls with the taps.
+    /// eq. 22). Noise falls with the taps.
     ImportanceSampled {
         /// Taps per pixel, 1 to 4096.
         taps: u32,

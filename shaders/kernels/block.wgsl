@@ -8,6 +8,8 @@ const BLOCK_DEPTH_PIXELS: f32 = 6.0;
 
 /// The pixels of a block that are of its first translucent pixel's material and depth, as one surface.
 struct Block {
+    /// The first of them.
+    first_pixel: vec2i,
     /// Mean position, pixels.
     position: vec2f,
     /// Material number, or NO_MATERIAL where no pixel of the block is translucent.
@@ -31,11 +33,16 @@ fn depth_scale(span_mm: f32) -> f32 {
     return select(0.0, 1.0 / (BLOCK_DEPTH_PIXELS * span_mm), REJECT_BY_DISTANCE);
 }
 
-/// Share of what lies `apart` in depth that counts: 1 on the surface itself, 0 from 1 on, which is BLOCK_DEPTH_PIXELS.
+/// How far a surface is in front of another or behind it, in BLOCK_DEPTH_PIXELS, at most 1.
+fn apart_in_depth(depth_scale: f32, a_mm: f32, b_mm: f32) -> f32 {
+    return min(abs(depth_scale * (a_mm - b_mm)), 1.0);
+}
+
+/// Share of what lies `apart` in depth that counts: 1 on the surface itself, 0 from 1 on.
 ///
 /// A parabola: as good as the Gaussian that it stands for, without an exponential.
 fn depth_agreement(apart: f32) -> f32 {
-    return max(1.0 - apart * apart, 0.0);
+    return 1.0 - apart * apart;
 }
 
 /// Far and near field of a block whose middle is `point`, among packed `pixels`.

@@ -53,8 +53,8 @@ fn load_far_fields(blocks: texture_2d<u32>, home: vec2i) -> FarFields {
 struct Mixture {
     /// Their light.
     far: Gathered,
-    /// Share of the centre.
-    centre: vec3f,
+    /// Share of the light that leaves the centre.
+    leaving: vec3f,
     /// The part of the window that agrees with the pixel.
     window: f32,
 }
@@ -72,14 +72,15 @@ fn far_field_agreement(at: Receiver, field: FarField) -> f32 {
     if field.surface.material == NO_MATERIAL || is_other {
         return 0.0;
     }
-    return depth_agreement(at.depth_scale * (field.surface.distance_mm - at.surface.distance_mm));
+    return depth_agreement(apart_in_depth(at.depth_scale, field.surface.distance_mm, at.surface.distance_mm));
 }
 
 /// `mixture` with the part `share` of a field, as far as it agrees with the pixel.
 fn with_field(mixture: Mixture, at: Receiver, field: FarField, share: f32) -> Mixture {
     let agreed = share * far_field_agreement(at, field);
     let far = Gathered(agreed * field.light.irradiance, agreed * field.light.weight);
-    return Mixture(together(mixture.far, far), mixture.centre + agreed * field.centre, mixture.window + agreed);
+    let leaving = agreed * (vec3f(1.0) - field.centre);
+    return Mixture(together(mixture.far, far), mixture.leaving + leaving, mixture.window + agreed);
 }
 
 /// `mixture` with three fields that lie side by side.
@@ -118,9 +119,8 @@ fn diffuse_interleaved(
     if mixture.window == 0.0 {
         return at.own;
     }
-    // A quotient, not a product with a reciprocal: where all light stays at the centre this is 1, and gives it back as
-    // it was.
-    let centre = at.own_counts * (mixture.centre / mixture.window);
+    // By what leaves it: where nothing does this is 1, however a driver rounds, and the light comes back as it was.
+    let centre = at.own_counts * (vec3f(1.0) - mixture.leaving / mixture.window);
     let near = Gathered(centre * at.own, centre);
     let far = Gathered(mixture.far.irradiance / mixture.window, mixture.far.weight / mixture.window);
     // The ring's shares are those of the pixel's own block, so they count only where it agrees.

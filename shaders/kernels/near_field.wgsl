@@ -84,11 +84,11 @@ fn ring_light(at: Receiver, ring: Ring, beside: vec3f, across: vec3f) -> Gathere
 /// Light of one pixel of the ring, `apart` from the centre, whose share on a flat surface is `share`.
 fn pixel_light(at: Receiver, pixel: InputPixel, apart: vec2i, share: vec3f) -> Gathered {
     let is_other = REJECT_BY_MATERIAL && pixel.material != at.surface.material;
-    let apart_in_depth = at.depth_scale * (pixel.distance_mm - at.surface.distance_mm);
-    let steps = BLOCK_DEPTH_PIXELS * apart_in_depth;
+    let apart_by = apart_in_depth(at.depth_scale, pixel.distance_mm, at.surface.distance_mm);
+    let steps = BLOCK_DEPTH_PIXELS * apart_by;
     // Close to the centre profiles fall about as r^-2 or slower: what depth leaves of the flat share.
     let squared_radius = f32(dot(apart, apart));
-    let by_depth = depth_agreement(apart_in_depth) * squared_radius / (squared_radius + steps * steps);
+    let by_depth = depth_agreement(apart_by) * squared_radius / (squared_radius + steps * steps);
     let by_normal = accepted_by_normal(at.normal, at.position + apart, at.span_mm);
     let weight = share * select(by_depth * by_normal, 0.0, is_other || pixel.material == NO_MATERIAL);
     return Gathered(weight * pixel.irradiance, weight);

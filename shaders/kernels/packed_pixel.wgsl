@@ -10,8 +10,9 @@ const MATERIAL_MASK: u32 = (1u << MATERIAL_BITS) - 1u;
 /// Bits of a key that hold the distance.
 const DISTANCE_MASK: u32 = 0x7fffffffu & ~MATERIAL_MASK;
 
-/// A first word that holds no irradiance: every mantissa and the exponent at their largest, which light stays below.
-const NO_LIGHT: u32 = 0xffffffffu;
+/// A first word that holds no irradiance: an exponent without mantissas. Light with an exponent above 0 has one of 256 and
+/// more.
+const NO_LIGHT: u32 = 31u << 27u;
 
 /// Exponent of the smallest step of an irradiance, 2^−40, with the bias of f32: below 2^−32 bits of the mantissas go.
 const LIGHT_STEP_EXPONENT: u32 = 87u;
@@ -38,7 +39,7 @@ fn unpack_surface(key: u32) -> InputSurface {
 fn pack_lit_surface(surface: InputSurface, irradiance: vec3f) -> vec2u {
     let form = share_exponent(irradiance, LARGEST_PACKED_IRRADIANCE, LIGHT_STEP_EXPONENT);
     let light = form.mantissas | (form.exponent << 27u);
-    return vec2u(min(light, NO_LIGHT - 1u), pack_surface(surface) | ((form.exponent >> 5u) << 31u));
+    return vec2u(light, pack_surface(surface) | ((form.exponent >> 5u) << 31u));
 }
 
 /// The irradiance that `pack_lit_surface` packed.

@@ -1,5 +1,6 @@
 /// A pixel of a block.
 struct BlockPixel {
+    position: vec2i,
     surface: InputSurface,
     /// Its texel of the surface target: surface albedo and material number.
     surface_texel: vec4f,
@@ -11,9 +12,10 @@ struct BlockPixel {
 fn block_pixel(pixels: texture_2d<u32>, position: vec2i) -> BlockPixel {
     let surface = unpack_surface(load_packed_pixel(pixels, position).y);
     if surface.material == NO_MATERIAL {
-        return BlockPixel(surface, vec4f(0.0), 1.0);
+        return BlockPixel(position, surface, vec4f(0.0), 1.0);
     }
-    return BlockPixel(surface, textureLoad(surface_texture, position, 0), mean_free_path_scale_at(position));
+    let surface_texel = textureLoad(surface_texture, position, 0);
+    return BlockPixel(position, surface, surface_texel, mean_free_path_scale_at(position));
 }
 
 /// The pixels of a block, from left to right and from the top.
@@ -35,12 +37,18 @@ fn pixels_of_block(pixels: texture_2d<u32>, block: vec2i) -> BlockPixels {
     );
 }
 
-/// The first surface of two.
-fn first_surface(a: InputSurface, b: InputSurface) -> InputSurface {
-    if a.material == NO_MATERIAL {
-        return b;
+/// The first translucent pixel of four, or the last one where none is.
+fn first_translucent(pixels: BlockPixels) -> BlockPixel {
+    if pixels.a.surface.material != NO_MATERIAL {
+        return pixels.a;
     }
-    return a;
+    if pixels.b.surface.material != NO_MATERIAL {
+        return pixels.b;
+    }
+    if pixels.c.surface.material != NO_MATERIAL {
+        return pixels.c;
+    }
+    return pixels.d;
 }
 
 /// 1 for a pixel of the block's surface `first`, 0 for another; `per_mm` is the `depth_scale` there.
@@ -48,15 +56,15 @@ fn membership(pixel: BlockPixel, first: InputSurface, per_mm: f32) -> f32 {
     if pixel.surface.material != first.material {
         return 0.0;
     }
-    return sign(depth_agreement(per_mm * (pixel.surface.distance_mm - first.distance_mm)));
+    return sign(depth_agreement(apart_in_depth(per_mm, pixel.surface.distance_mm, first.distance_mm)));
 }
 
 /// The pixels of a block that are of its first translucent pixel's material and depth, as one surface.
 fn block_of(block: vec2i, pixels: BlockPixels) -> Block {
-    let upper = first_surface(pixels.a.surface, pixels.b.surface);
-    let first = first_surface(upper, first_surface(pixels.c.surface, pixels.d.surface));
+    let first_pixel = first_translucent(pixels);
+    let first = first_pixel.surface;
     if first.material == NO_MATERIAL {
-        return Block(vec2f(0.0), NO_MATERIAL, 0.0, vec3f(0.0), 1.0);
+        return Block(vec2i(0), vec2f(0.0), NO_MATERIAL, 0.0, vec3f(0.0), 1.0);
     }
     let per_mm = depth_scale(span_mm(subsurface_view, first.distance_mm));
     let members = vec4f(
@@ -72,6 +80,7 @@ fn block_of(block: vec2i, pixels: BlockPixels) -> Block {
         + shares.z * texel_surface_albedo(pixels.c.surface_texel, surface)
         + shares.w * texel_surface_albedo(pixels.d.surface_texel, surface);
     return Block(
+        first_pixel.position,
         vec2f(BLOCK_SIDE * block) + vec2f(shares.y + shares.w, shares.z + shares.w),
         first.material,
         dot(
@@ -104,6 +113,7 @@ fn texels_of_block(pixels: texture_2d<u32>, block: vec2i) -> BlockTexels {
     }
     let point = surface_point(
         subsurface_view,
+        surface.first_pixel,
         surface.position,
         surface.material,
         material_table[surface.material],

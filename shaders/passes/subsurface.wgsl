@@ -66,6 +66,7 @@ fn surface_point_at(position: vec2i, surface: InputSurface) -> SurfacePoint {
     let row = material_table[surface.material];
     return surface_point(
         subsurface_view,
+        position,
         vec2f(position),
         surface.material,
         row,

@@ -111,6 +111,7 @@ pub fn run(
         millimetres_per_pixel: case.millimetres_per_pixel(),
         white,
         dense_ms,
+        witness_taps: subject.taps_within(case.millimetres_per_pixel(), WITNESS.taps()),
         witness_db: Score::of(&witness, &reference, &pixels, white).psnr_db,
         lines,
         declined,
@@ -130,8 +131,8 @@ fn single_picture(
     let textures = Uploaded::new(device, &case.buffers_of(subject), &materials, Precision::Half)?;
     let stage = Stage { device, case, subject, textures: &textures, path: options.path };
     device.checked(|| {
-        let run = contender::kernel_run(&stage, &materials, format)?;
         let start = Instant::now();
+        let run = contender::kernel_run(&stage, &materials, format)?;
         let picture = measure::picture(device, &run)?;
         Ok((picture, start.elapsed().as_secs_f64() * 1e3))
     })

@@ -6,7 +6,10 @@ use crate::scene::camera::Size;
 use std::fmt::Write as _;
 use subsurface_runtime::Path;
 
-/// The witness has at most half of the yardstick's error, unless the footprint has no room for more taps.
+/// Taps from which on the witness is expected to be closer than the yardstick: eight times as many.
+const FEWEST_WITNESS_TAPS: u32 = 136;
+
+/// It then has at most half of the yardstick's error.
 const CLOSER_THAN_YARDSTICK_DB: f64 = 6.0;
 
 /// From here on pictures count as the same.
@@ -33,8 +36,11 @@ pub struct Report {
     pub white: f64,
     /// Time of the reference picture, its pipeline included, ms.
     pub dense_ms: f64,
-    /// PSNR of [`WITNESS`](super::WITNESS) against the reference, dB: another way to the same sum.
+    /// PSNR of [`WITNESS`](super::WITNESS) against the reference, dB: another way to the same sum. Infinite where both are
+    /// alike.
     pub witness_db: f64,
+    /// Taps that the witness takes at the median footprint, which may have no room for all.
+    pub witness_taps: u32,
     /// One line per contender, in the order in which they entered: the yardstick first.
     pub lines: Vec<Line>,
     /// Who did not enter.
@@ -86,12 +92,13 @@ impl Report {
 
     /// Whether the reference picture may be wrong.
     ///
-    /// With sixty times the taps of the yardstick the witness comes much closer than that, or as close as anybody;
-    /// where it does neither, it is `Dense` that did not sum to the end, as on drivers that stop a shader after some
-    /// rounds of its loops.
+    /// With so many more taps than the yardstick the witness comes much closer, or as close as anybody; where it does
+    /// neither, it is `Dense` that did not sum to the end, as on drivers that stop a shader after some rounds of its loops.
+    /// Nothing is said of footprints that have no room for the taps: sums over them are short.
     pub fn is_reference_doubtful(&self) -> bool {
-        let yardstick_db = self.lines.first().map_or(f64::NEG_INFINITY, |line| line.score.psnr_db);
-        self.witness_db < (yardstick_db + CLOSER_THAN_YARDSTICK_DB).min(CLOSE_DB)
+        let Some(yardstick) = self.lines.first() else { return false };
+        self.witness_taps >= FEWEST_WITNESS_TAPS
+            && self.witness_db < (yardstick.score.psnr_db + CLOSER_THAN_YARDSTICK_DB).min(CLOSE_DB)
     }
 
     /// A line that says what was measured.
@@ -159,5 +166,51 @@ pub(super) fn path_name(path: Path) -> &'static str {
     match path {
         Path::Compute => "compute",
         Path::Fragment => "fragment",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn report(yardstick_db: f64, witness_db: f64, witness_taps: u32) -> Report {
+        let score = Score { rmse: 0.01, channel_rmse: [0.01; 3], psnr_db: yardstick_db };
+        Report {
+            case: String::new(),
+            profile: String::new(),
+            adapter: String::new(),
+            size: Size { width: 1, height: 1 },
+            translucent_pixels: 1,
+            mean_radius_mm: 1.0,
+            millimetres_per_pixel: 1.0,
+            white: 1.0,
+            dense_ms: 1.0,
+            witness_db,
+            witness_taps,
+            lines: vec![Line {
+                family: String::new(),
+                taps: 17,
+                goal: None,
+                path: Path::Compute,
+                score,
+                time: None,
+            }],
+            declined: Vec::new(),
+        }
+    }
+
+    #[test]
+    fn a_reference_is_doubtful_where_many_taps_are_no_closer_than_few() {
+        for (yardstick_db, witness_db, taps, doubtful) in [
+            (30.0, 31.0, 1024, true),
+            (30.0, 36.1, 1024, false),
+            (44.0, 45.0, 1024, false),
+            (30.0, f64::INFINITY, 1024, false),
+            // No room for more taps: the witness is the yardstick.
+            (30.0, 30.0, 17, false),
+        ] {
+            let report = report(yardstick_db, witness_db, taps);
+            assert_eq!(report.is_reference_doubtful(), doubtful, "{yardstick_db} {witness_db} {taps}");
+        }
     }
 }

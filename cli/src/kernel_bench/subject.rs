@@ -17,6 +17,9 @@ pub struct Subject {
     material: Material,
 }
 
+/// Share of the light within the filter radius, as `FILTER_QUANTILE` of the shaders.
+const FILTER_QUANTILE: f64 = 0.997;
+
 /// Radii that stand for a profile: the mean of so many quantiles is the mean radius to four digits.
 const QUANTILES: u32 = 4096;
 
@@ -100,6 +103,20 @@ impl Subject {
         let index = channel.index();
         let medium = Medium::new(self.material.surface_albedo[index], self.material.length_mm[index]).ok()?;
         self.material.profile.model.profile(medium, channel).ok()
+    }
+
+    /// Taps of a budget that a kernel takes where a pixel spans `millimetres`: a quarter of the pixels within the filter
+    /// radius, as the shaders have it.
+    pub(super) fn taps_within(&self, millimetres: f64, budget: u32) -> u32 {
+        let radius = |profile: Box<dyn RadialProfile>| profile.sample_radius(FILTER_QUANTILE);
+        let widest_mm = Channel::ALL
+            .into_iter()
+            .filter_map(|channel| self.profile(channel))
+            .map(radius)
+            .fold(0.0, f64::max);
+        let taps = std::f64::consts::FRAC_PI_4 * (widest_mm / millimetres).powi(2);
+        // A cast saturates, and makes 0 of NaN: no translucent pixel.
+        (taps.ceil() as u32).min(budget)
     }
 
     /// Mean radius ∫ r 2πr R dr / A of the widest channel, mm.

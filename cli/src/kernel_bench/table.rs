@@ -33,7 +33,7 @@ pub fn scores(report: &Report) -> String {
     // Writing to a string cannot fail.
     let _ = writeln!(
         text,
-        "dense, the reference, took {:.1} ms once, its pipeline included; {} with {} taps agrees to {:.1} dB",
+        "dense, the reference, took {:.1} ms once, its pipeline included; {} {} agrees to {:.1} dB",
         report.dense_ms,
         KernelContender { kernel: WITNESS }.family(),
         WITNESS.taps(),

@@ -29,8 +29,8 @@
 //!
 //! # What it is not
 //!
-//! Rounding of the GPU's own is left out: nine bits per number between the stages of `Interleaved` are within 1e-3 of the
-//! white level. So is whatever lies between two textured surface albedos: materials are tried at their own.
+//! Rounding of the GPU's own is left out: nine bits per number between the stages of `Interleaved` are within 2e-3 of a
+//! pixel's brightest channel. So is whatever lies between two textured surface albedos: materials are tried at their own.
 
 mod cases;
 mod cost;

@@ -114,7 +114,13 @@ fn normals_of_a_plane_reject_nothing() {
     // Tilted, so that a normal in the wrong frame would show; steps of depth per pixel, in pixels.
     for slopes in [[0.67, -0.33], [1.0, 0.0], [1.0, 1.0], [-2.0, 2.0]] {
         let [right, down] = slopes.map(|slope| slope * MILLIMETRES_PER_PIXEL);
-        let buffers = half_lit().distant(|x, y| DISTANCE_MM + right * x as f32 + down * y as f32);
+        // A diamond of squares of 2×2 pixels, a pixel off the blocks: its silhouettes leave blocks without their first
+        // pixel, but every pixel has a neighbour along both axes.
+        let buffers =
+            half_lit().distant(|x, y| DISTANCE_MM + right * x as f32 + down * y as f32).covered(|x, y| {
+                let apart = |place: u32| place.div_ceil(2).abs_diff(MIDDLE / 2);
+                if apart(x) + apart(y) < 7 { 0.0 } else { -1.0 }
+            });
         for kernel in KERNELS {
             let free = diffuser(kernel, Rejection::default()).diffuse(&view(), &buffers);
             let policy = Rejection { by_normal: true, ..Rejection::default() };
