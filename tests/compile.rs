@@ -100,6 +100,26 @@ fn the_caller_overrides_the_file_of_the_set() {
 }
 
 #[test]
+fn the_ready_made_materials_reach_every_tier() {
+    let ron = |entry: std::io::Result<std::fs::DirEntry>| entry.expect("the folder can be read").path();
+    let mut files: Vec<(String, String)> = std::fs::read_dir("materials")
+        .expect("the folder is there")
+        .map(ron)
+        .filter(|path| path.extension().is_some_and(|extension| extension == "ron"))
+        .map(|path| {
+            let name = path.file_name().expect("it has a name").to_string_lossy().into_owned();
+            (name, std::fs::read_to_string(path).expect("it is text"))
+        })
+        .filter(|(name, _)| name != "set.ron")
+        .collect();
+    files.push(("set.ron".to_owned(), "MaterialSet(quality: Ultra)".to_owned()));
+    let compilation = Compiler::from_memory(files).compile().unwrap_or_else(|report| panic!("{report}"));
+    for tier in compilation.quality.expect("the set asks for a tier").tiers {
+        assert!(tier.error <= tier.tier.target(), "{tier:?}");
+    }
+}
+
+#[test]
 fn a_set_that_asks_for_an_error_states_it() {
     let compile = |compiler: Compiler| compiler.compile().unwrap_or_else(|report| panic!("{report}"));
     let directory = "tests/in/pass/described_by_its_error";

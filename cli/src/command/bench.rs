@@ -43,7 +43,7 @@ pub enum BenchCommand {
     /// spans. With --input alone only that G-buffer is diffused. The error is over translucent pixels, against the
     /// kernel `dense` with the same profile. The time is that of the subsurface pass alone, from submission until the device
     /// is idle, as a ratio to importance-sampled with 17 taps in the same run: rounds in which every kernel runs once,
-    /// and the median of the ratios.
+    /// and the median of the ratios. A second estimator bears witness to the reference; where they differ, a line warns.
     Kernels(KernelsArguments),
 }
 

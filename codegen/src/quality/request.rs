@@ -27,7 +27,8 @@ impl Quality {
     }
 }
 
-/// Steps of quality, each of half the error of the one before.
+/// Steps of quality: each of half the error of the one before, the last of what the kernels for frames reach with the
+/// ready-made materials.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Tier {
     /// An error of 0.04.
@@ -36,7 +37,7 @@ pub enum Tier {
     Medium,
     /// An error of 0.01.
     High,
-    /// An error of 0.005.
+    /// An error of 0.0085.
     Ultra,
 }
 
@@ -51,7 +52,7 @@ impl Tier {
             Self::Low => 0.04,
             Self::Medium => 0.02,
             Self::High => 0.01,
-            Self::Ultra => 0.005,
+            Self::Ultra => 0.0085,
         }
     }
 
