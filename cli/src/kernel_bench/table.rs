@@ -51,6 +51,15 @@ pub fn scores(report: &Report) -> String {
     text
 }
 
+/// What is said of a goal; nothing where there is no reference to hold the errors against.
+fn verdict(report: &Report, is_met: bool) -> &'static str {
+    match (report.is_reference_doubtful(), is_met) {
+        (true, _) => "the reference does not hold",
+        (false, true) => "met",
+        (false, false) => "not met",
+    }
+}
+
 /// The goals of all reports, a line for each rival; empty where none has a goal.
 pub fn goals(reports: &[Report]) -> String {
     let mut table = Table::new([
@@ -92,7 +101,7 @@ pub fn goals(reports: &[Report]) -> String {
                 rival.time.map_or_else(String::new, |time| format!("{:.3}", time.ratio)),
                 share,
                 gain,
-                format!("{goal}: {}", if outcome.is_met() { "met" } else { "not met" }),
+                format!("{goal}: {}", verdict(report, outcome.is_met())),
             ]);
         }
     }
