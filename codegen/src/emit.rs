@@ -17,6 +17,7 @@ use crate::output_format::OutputFormat;
 use crate::rejection::{Rejected, Rejection};
 use crate::schema::rounded;
 use crate::source::Span;
+use crate::unrolled::{gaussian_sums, table_search};
 use crate::value::{Value, single};
 
 /// The glue text of a set and the values of its table.
@@ -93,10 +94,12 @@ pub(crate) fn emit(set: &MaterialSet, choices: &Choices) -> Result<Emitted, Emit
     emit_dispatch(&mut glue.text, &models);
     if models.contains(&ModelKind::GaussianSum) {
         glue.text.push_str(GAUSSIAN_TERMS);
+        glue.text.push_str(&gaussian_sums(shared.terms.longest));
         curves.append(&shared.terms.texels);
     }
     if models.contains(&ModelKind::Tabulated) {
         glue.text.push_str(TABULATED_KNOTS);
+        glue.text.push_str(&table_search(shared.knots.longest));
     }
     Ok(Emitted { glue, rows, knots: shared.knots.values, curves, models })
 }
@@ -200,6 +203,8 @@ struct Shared {
 struct TabulatedKnots {
     models: Vec<(TabulatedModel, u32)>,
     values: Vec<Value>,
+    /// Knots of the longest table.
+    longest: u32,
 }
 
 impl TabulatedKnots {
@@ -211,6 +216,7 @@ impl TabulatedKnots {
         let first = number_of(self.values.len());
         self.models.push((model.clone(), first));
         let radii = model.radii().len();
+        self.longest = self.longest.max(number_of(radii));
         let surface_albedos = model.surface_albedos().flat_map(|a| std::iter::repeat_n(a, radii));
         self.values.extend(model.knots().zip(surface_albedos).map(|(knot, surface_albedo)| {
             Value::Struct(vec![
@@ -241,6 +247,7 @@ const TABULATED_KNOTS: &str = "\
 fn tabulated_knot(index: u32) -> TabulatedKnot {
     return profile_tables[index];
 }
+
 ";
 
 /// How the shaders reach the terms of Gaussian sums: as texels behind the curves. An array in the module, constant or
@@ -250,6 +257,7 @@ const GAUSSIAN_TERMS: &str = "\
 fn gaussian_sum_term(index: u32) -> vec4f {
     return textureLoad(profile_curves, curve_place(i32(index / 64u), i32(index % 64u)), 0);
 }
+
 ";
 
 /// Terms of all Gaussian sums of a set; equal sums share theirs.
@@ -260,12 +268,14 @@ struct GaussianTerms {
     start: u32,
     /// Weights and variance of each term.
     texels: Vec<[f32; 4]>,
+    /// Terms of the longest sum.
+    longest: u32,
 }
 
 impl GaussianTerms {
     /// Terms that stand behind `curves`.
     fn after(curves: &Curves) -> Self {
-        Self { sums: Vec::new(), start: curves.texels(), texels: Vec::new() }
+        Self { sums: Vec::new(), start: curves.texels(), texels: Vec::new(), longest: 0 }
     }
 
     /// First term and number of terms of `model`.
@@ -274,6 +284,7 @@ impl GaussianTerms {
         if let Some((_, first)) = self.sums.iter().find(|(known, _)| known == model) {
             return (*first, count);
         }
+        self.longest = self.longest.max(count);
         let first = self.start + number_of(self.texels.len());
         self.sums.push((model.clone(), first));
         let sums = [0, 1, 2].map(|channel| model.terms.iter().map(|term| term.weight[channel]).sum::<f64>());

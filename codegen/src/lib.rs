@@ -44,6 +44,7 @@ pub mod source;
 mod suggestion;
 mod syntax;
 mod table;
+mod unrolled;
 mod validate;
 mod value;
 

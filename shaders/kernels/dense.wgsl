@@ -5,8 +5,8 @@
 const DENSE_QUANTILE: f32 = 0.999;
 
 /// Largest radius, pixels: beyond it light is renormalized, and the loops stay bounded. There is a software driver that
-/// ends an invocation's loops after 65536 rounds in all: this keeps below, but for profiles which loop themselves
-/// (Gaussian sums, tables) only radii up to about 30 pixels do.
+/// ends an invocation's loops after 65536 rounds in all, inner loops and those of branches not taken included: rows of a
+/// square of this radius stay below, so the sums hold no loop but their own.
 const DENSE_LARGEST_RADIUS: f32 = 120.0;
 
 /// Pixels around the centre, along each axis, whose share is integrated over their area.
@@ -24,43 +24,71 @@ fn dense_radius(point: SurfacePoint) -> i32 {
 /// Light of all pixels within the filter radius of the pixel `centre`, whose target is of `size`.
 fn gather_dense(point: SurfacePoint, centre: vec2i, size: vec2i) -> Gathered {
     let radius = dense_radius(point);
-    let first = max(centre - radius, vec2i(0));
-    let last = min(centre + radius, size - 1);
+    return together(gather_near(point, centre, size, radius), gather_far(point, centre, size, radius));
+}
+
+/// Light of the pixels whose share is integrated.
+fn gather_near(point: SurfacePoint, centre: vec2i, size: vec2i, radius: i32) -> Gathered {
+    let first = max(centre - DENSE_INTEGRATED, vec2i(0));
+    let last = min(centre + DENSE_INTEGRATED, size - 1);
     var gathered = Gathered(vec3f(0.0), vec3f(0.0));
     for (var y = first.y; y <= last.y; y += 1) {
         for (var x = first.x; x <= last.x; x += 1) {
-            gathered = together(gathered, dense_light(point, centre, vec2i(x, y), radius));
+            let apart = vec2i(x, y) - centre;
+            if dot(apart, apart) <= radius * radius {
+                let pixel = input_pixel(vec2i(x, y));
+                let share = near_share(point, apart, depth_difference_mm(point, pixel.distance_mm));
+                gathered = together(gathered, sent_light(point, pixel, vec2i(x, y), share));
+            }
         }
     }
     return gathered;
 }
 
-/// Light of the pixel at `position`: none beyond the radius.
-fn dense_light(point: SurfacePoint, centre: vec2i, position: vec2i, radius: i32) -> Gathered {
-    let apart = position - centre;
-    if dot(apart, apart) > radius * radius {
-        return Gathered(vec3f(0.0), vec3f(0.0));
+/// Light of the others.
+fn gather_far(point: SurfacePoint, centre: vec2i, size: vec2i, radius: i32) -> Gathered {
+    let first_row = max(centre.y - radius, 0);
+    let last_row = min(centre.y + radius, size.y - 1);
+    var gathered = Gathered(vec3f(0.0), vec3f(0.0));
+    for (var y = first_row; y <= last_row; y += 1) {
+        let row = y - centre.y;
+        // Half a unit more than the whole number under the root: its rounding cannot pass a whole number.
+        let half_width = i32(sqrt(f32(radius * radius - row * row) + 0.5));
+        let last = min(centre.x + half_width, size.x - 1);
+        for (var x = max(centre.x - half_width, 0); x <= last; x += 1) {
+            let apart = vec2i(x, y) - centre;
+            if any(abs(apart) > vec2i(DENSE_INTEGRATED)) {
+                let pixel = input_pixel(vec2i(x, y));
+                let share = far_share(point, apart, depth_difference_mm(point, pixel.distance_mm));
+                gathered = together(gathered, sent_light(point, pixel, vec2i(x, y), share));
+            }
+        }
     }
-    let pixel = input_pixel(position);
+    return gathered;
+}
+
+/// Light of a pixel whose share is known.
+fn sent_light(point: SurfacePoint, pixel: InputPixel, position: vec2i, share: vec3f) -> Gathered {
     if !accepts_material(point, pixel.material) {
         return Gathered(vec3f(0.0), vec3f(0.0));
     }
-    let depth_mm = depth_difference_mm(point, pixel.distance_mm);
-    let by_normal = accepted_by_normal(point.normal, position, point.span_mm);
-    let weight = by_normal * pixel_share(point, apart, depth_mm);
+    let weight = accepted_by_normal(point.normal, position, point.span_mm) * share;
     return Gathered(weight * pixel.irradiance, weight);
 }
 
 /// Share of the light that a pixel `apart` from the centre and `depth_mm` away in depth sends there.
-fn pixel_share(point: SurfacePoint, apart: vec2i, depth_mm: f32) -> vec3f {
+fn far_share(point: SurfacePoint, apart: vec2i, depth_mm: f32) -> vec3f {
+    let area = point.pixel_mm * point.pixel_mm;
+    let squared_mm = area * f32(dot(apart, apart)) + depth_mm * depth_mm;
+    return area * channel_area_pdf(point.profiles, sqrt(squared_mm));
+}
+
+/// The same, integrated over the pixel.
+fn near_share(point: SurfacePoint, apart: vec2i, depth_mm: f32) -> vec3f {
     if all(apart == vec2i(0)) {
         return centre_share(point);
     }
     let area = point.pixel_mm * point.pixel_mm;
-    if any(abs(apart) > vec2i(DENSE_INTEGRATED)) {
-        let squared_mm = area * f32(dot(apart, apart)) + depth_mm * depth_mm;
-        return area * channel_area_pdf(point.profiles, sqrt(squared_mm));
-    }
     var share = vec3f(0.0);
     for (var place = 0; place < DENSE_POINTS * DENSE_POINTS; place += 1) {
         let within = vec2f(vec2i(place % DENSE_POINTS, place / DENSE_POINTS)) + 0.5;

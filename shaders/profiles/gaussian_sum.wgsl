@@ -1,6 +1,7 @@
 // Sum of Gaussians: R(r) / A = Σ wᵢ G(vᵢ, r), G(v, r) = e^(−r²/2v) / (2πv), Σ wᵢ = 1 per channel.
 // [GG3] d'Eon and Luebke 2007, GPU Gems 3, chapter 14.
-// `gaussian_sum_term(i)` comes from the material set: (weight red, green, blue; variance in mm²).
+// From the material set come `gaussian_sum_term(i)`, (weight red, green, blue; variance in mm²), and the functions that
+// add the terms up: `gaussian_sum_area_pdf(profile, radius_mm)` and `gaussian_sum_radial_cdf(profile, radius_mm)`.
 
 /// Where this model's terms stand among all Gaussian terms of the set.
 struct GaussianSumModel {
@@ -14,29 +15,29 @@ fn gaussian_sum_profile(model: GaussianSumModel, channel: u32) -> vec4f {
     return vec4f(f32(model.first_term), f32(model.first_term + model.term_count), f32(channel), 0.0);
 }
 
-/// R(r) / A per unit area, mm⁻².
-fn gaussian_sum_area_pdf(profile: vec4f, radius_mm: f32) -> f32 {
-    var density = 0.0;
-    for (var i = u32(profile.x); i < u32(profile.y); i += 1u) {
-        let term = gaussian_sum_term(i);
-        density += term[u32(profile.z)] * exp(-radius_mm * radius_mm / (2.0 * term.w)) / (TAU * term.w);
-    }
-    return density;
+/// Term `place` of the sum: its weight in the channel, and its variance in mm². No weight beyond the last term.
+fn gaussian_term(profile: vec4f, place: u32) -> vec2f {
+    let index = u32(profile.x) + place;
+    let last = u32(profile.y) - 1u;
+    let term = gaussian_sum_term(min(index, last));
+    return vec2f(select(0.0, term[u32(profile.z)], index <= last), term.w);
+}
+
+/// Its share of R(r) / A per unit area, mm⁻².
+fn gaussian_term_area_pdf(profile: vec4f, place: u32, radius_mm: f32) -> f32 {
+    let term = gaussian_term(profile, place);
+    return term.x * exp(-radius_mm * radius_mm / (2.0 * term.y)) / (TAU * term.y);
+}
+
+/// Its share of the fraction of the energy within `radius_mm`.
+fn gaussian_term_radial_cdf(profile: vec4f, place: u32, radius_mm: f32) -> f32 {
+    let term = gaussian_term(profile, place);
+    return term.x * one_minus_exp(radius_mm * radius_mm / (2.0 * term.y));
 }
 
 /// 2πr R(r) / A per unit radius, mm⁻¹.
 fn gaussian_sum_radial_pdf(profile: vec4f, radius_mm: f32) -> f32 {
     return TAU * radius_mm * gaussian_sum_area_pdf(profile, radius_mm);
-}
-
-/// Fraction of the reflected energy that leaves within `radius_mm`: Σ wᵢ (1 − e^(−r²/2vᵢ)).
-fn gaussian_sum_radial_cdf(profile: vec4f, radius_mm: f32) -> f32 {
-    var fraction = 0.0;
-    for (var i = u32(profile.x); i < u32(profile.y); i += 1u) {
-        let term = gaussian_sum_term(i);
-        fraction += term[u32(profile.z)] * one_minus_exp(radius_mm * radius_mm / (2.0 * term.w));
-    }
-    return fraction;
 }
 
 /// Inverse of `gaussian_sum_radial_cdf`.

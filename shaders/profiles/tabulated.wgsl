@@ -1,5 +1,6 @@
 // A table of 2πr R(r) / A by surface albedo and radius. The cdf is a monotone cubic between two radii.
-// `tabulated_knot(i)` comes from the material set: table by table, by surface albedo, by radius.
+// From the material set come `tabulated_knot(i)`, table by table, by surface albedo, by radius, and the search for the
+// piece that holds a radius: `tabulated_piece_start(profile, radius)`, strides of `tabulated_stride`.
 
 /// Where this model's knots stand among all knots of the set.
 struct TabulatedModel {
@@ -71,17 +72,17 @@ struct TabulatedPiece {
     to_knot: TabulatedKnot,
 }
 
+/// A step of the search for the piece that holds `radius`: `stride` pieces on, unless that one begins beyond it.
+fn tabulated_stride(profile: vec4f, start: u32, stride: u32, radius: f32) -> u32 {
+    // The last knot begins no piece.
+    let next = min(start + stride, u32(profile.y) - 2u);
+    return select(start, next, tabulated_knot(u32(profile.x) + next).radius <= radius);
+}
+
 /// The piece that holds a radius in mean free paths.
 fn tabulated_piece(profile: vec4f, radius: f32) -> TabulatedPiece {
-    let first_knot = u32(profile.x);
-    // The last knot begins no piece.
-    let pieces = u32(profile.y) - 1u;
-    var lower = 0u;
-    for (var stride = tabulated_first_stride(pieces); stride > 0u; stride >>= 1u) {
-        let next = min(lower + stride, pieces - 1u);
-        lower = select(lower, next, tabulated_knot(first_knot + next).radius <= radius);
-    }
-    return TabulatedPiece(tabulated_mixed_knot(profile, lower), tabulated_mixed_knot(profile, lower + 1u));
+    let start = tabulated_piece_start(profile, radius);
+    return TabulatedPiece(tabulated_mixed_knot(profile, start), tabulated_mixed_knot(profile, start + 1u));
 }
 
 /// 2πr R(r) / A at s, from 0 to 1, within a piece: the derivative of the cubic, per mean free path.

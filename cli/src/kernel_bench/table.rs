@@ -42,7 +42,7 @@ pub fn scores(report: &Report) -> String {
     if report.is_reference_doubtful() {
         text.push_str(
             "warning: the reference does not hold, so the errors above say nothing. This driver may end long loops: \
-             try another adapter, smaller --footprints, or a profile that is no sum of Gaussians and no table\n",
+             try another adapter or smaller --footprints\n",
         );
     }
     for declined in &report.declined {

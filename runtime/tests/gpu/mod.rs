@@ -113,22 +113,38 @@ pub fn table_files() -> [(String, String); 2] {
     [("profiles/tabulated.ron".to_owned(), profile), ("profiles/tables/mine.csv".to_owned(), csv)]
 }
 
-/// The file of the profile `exponentials_alone`: no share of the light for a dipole that would reach far.
-pub fn exponentials_alone_file() -> (String, String) {
-    let profile = "TwoExponentialDipole(exponential_weight: (1, 0, 0, 0), exponential_length: (10, 0, 0, 0), \
-                   dipole_depth: (1000, 0, 0, 0), dipole_attenuation: (0, 0, 0, 0), short_weight: 0.9, \
-                   short_length: 0.01, second_weight: 0, second_depth: 2)";
-    ("profiles/exponentials_alone.ron".to_owned(), profile.to_owned())
+/// Files of profiles that tests alone use.
+pub fn test_profile_files() -> [(String, String); 2] {
+    [("exponentials_alone", exponentials_alone()), ("many_gaussians", many_gaussians())]
+        .map(|(stem, profile)| (format!("profiles/{stem}.ron"), profile))
 }
 
-/// The model of one of [`stems`], or of `exponentials_alone`, in f64.
+/// No share of the light for a dipole that would reach far.
+fn exponentials_alone() -> String {
+    "TwoExponentialDipole(exponential_weight: (1, 0, 0, 0), exponential_length: (10, 0, 0, 0), \
+     dipole_depth: (1000, 0, 0, 0), dipole_attenuation: (0, 0, 0, 0), short_weight: 0.9, short_length: 0.01, \
+     second_weight: 0, second_depth: 2)"
+        .to_owned()
+}
+
+/// More terms than the compiler writes out, by more than their half.
+fn many_gaussians() -> String {
+    let terms = (0..70_u32).map(|index| {
+        let variance = 0.01 * 1.1_f64.powf(f64::from(index));
+        let [red, green, blue] = [7, 5, 3].map(|period| 0.01 + 0.01 * f64::from(index % period));
+        format!("(variance_mm2: {variance}, weight: ({red}, {green}, {blue}))")
+    });
+    format!("GaussianSum([{}])", terms.collect::<Vec<_>>().join(", "))
+}
+
+/// The model of one of [`stems`], or of [`test_profile_files`], in f64.
 pub fn model(stem: &str) -> Model {
     Model::published(stem).unwrap_or_else(|| {
         let material = format!(
             "Material(profile: {stem:?}, mean_free_path_mm: (1, 1, 1), surface_albedo: (0.5, 0.5, 0.5))"
         );
         let files =
-            table_files().into_iter().chain([exponentials_alone_file(), ("only.ron".to_owned(), material)]);
+            table_files().into_iter().chain(test_profile_files()).chain([("only.ron".to_owned(), material)]);
         let loaded = subsurface_codegen::load_memory(files);
         let set = loaded.set.unwrap_or_else(|| panic!("{}", loaded.report));
         set.materials[0].profile.model.clone()
