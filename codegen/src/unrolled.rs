@@ -1,38 +1,38 @@
-//! Loops of the profiles, written out as long as a material set needs them.
+//! Loops of the profiles, written out as long as a material set needs them: searches of tables whole, Gaussian sums up
+//! to 32 terms.
 //!
 //! Loops cost more than their rounds: `Dense` calls densities tens of thousands of times per pixel, and there is a
-//! driver that ends a shader's loops, inner ones included, after 65,536 rounds (Mesa's llvmpipe).
+//! driver that ends a shader's loops, inner ones included, after 65,536 rounds (Mesa's llvmpipe). A shorter sum or table
+//! pays for the longest of its set.
 
 use std::fmt::Write as _;
 
-/// Terms of a Gaussian sum that are written out; longer sums repeat them.
-const TERMS_AT_ONCE: u32 = 32;
+/// Terms of a Gaussian sum that are written out at most; a longer sum takes as few rounds as it can.
+const MOST_TERMS_AT_ONCE: u32 = 32;
 
 /// The functions of a Gaussian sum that add its terms up, for sums of at most `terms` terms.
 pub(crate) fn gaussian_sums(terms: u32) -> String {
-    let area_pdf = "R(r) / A per unit area, mm⁻².";
-    let radial_cdf =
-        "Fraction of the reflected energy that leaves within `radius_mm`: Σ wᵢ (1 − e^(−r²/2vᵢ)).";
+    let rounds = terms.div_ceil(MOST_TERMS_AT_ONCE).max(1);
+    let at_once = terms.div_ceil(rounds);
     let mut text = String::new();
-    for (function, docs) in [("area_pdf", area_pdf), ("radial_cdf", radial_cdf)] {
+    for (function, docs) in [
+        ("area_pdf", "R(r) / A per unit area, mm⁻²."),
+        ("radial_cdf", "Fraction of the reflected energy that leaves within `radius_mm`."),
+    ] {
         let _ = writeln!(text, "/// {docs}");
         let _ = writeln!(text, "fn gaussian_sum_{function}(profile: vec4f, radius_mm: f32) -> f32 {{");
         text.push_str("    var sum = 0.0;\n");
-        let repeats = terms > TERMS_AT_ONCE;
-        let (indent, first) = if repeats { ("        ", "first + ") } else { ("    ", "") };
-        if repeats {
-            let _ = writeln!(
-                text,
-                "    for (var first = 0u; first < u32(profile.y) - u32(profile.x); first += {TERMS_AT_ONCE}u) {{"
-            );
+        let (indent, first) = if rounds > 1 { ("        ", "first + ") } else { ("    ", "") };
+        if rounds > 1 {
+            let terms = "u32(profile.y) - u32(profile.x)";
+            let _ = writeln!(text, "    for (var first = 0u; first < {terms}; first += {at_once}u) {{");
         }
-        for place in 0..terms.min(TERMS_AT_ONCE) {
-            let _ = writeln!(
-                text,
-                "{indent}sum += gaussian_term_{function}(profile, {first}{place}u, radius_mm);"
-            );
+        for place in 0..at_once {
+            let term = format!("gaussian_term_{function}(profile, {first}{place}u, radius_mm)");
+            let _ = writeln!(text, "{indent}sum += {term};");
         }
-        text.push_str(if repeats { "    }\n    return sum;\n}\n\n" } else { "    return sum;\n}\n\n" });
+        text.push_str(if rounds > 1 { "    }\n" } else { "" });
+        text.push_str("    return sum;\n}\n\n");
     }
     text
 }
@@ -68,9 +68,25 @@ mod tests {
     }
 
     #[test]
-    fn longer_sums_take_32_terms_a_round() {
+    fn a_sum_is_one_line_per_term() {
+        let area_pdf = "\
+/// R(r) / A per unit area, mm⁻².
+fn gaussian_sum_area_pdf(profile: vec4f, radius_mm: f32) -> f32 {
+    var sum = 0.0;
+    sum += gaussian_term_area_pdf(profile, 0u, radius_mm);
+    sum += gaussian_term_area_pdf(profile, 1u, radius_mm);
+    return sum;
+}
+
+";
+        let text = gaussian_sums(2);
+        assert!(text.starts_with(area_pdf), "{text}");
+    }
+
+    #[test]
+    fn longer_sums_are_cut_into_even_rounds() {
         let text = gaussian_sums(33);
-        assert_eq!((text.matches("sum += ").count(), text.matches("for (").count()), (64, 2), "{text}");
+        assert_eq!((text.matches("sum += ").count(), text.matches("for (").count()), (2 * 17, 2), "{text}");
     }
 
     #[test]

@@ -4,9 +4,11 @@
 /// Share of the widest profile's light that the radius holds.
 const DENSE_QUANTILE: f32 = 0.999;
 
-/// Largest radius, pixels: beyond it light is renormalized, and the loops stay bounded. There is a software driver that
-/// ends an invocation's loops after 65536 rounds in all, inner loops and those of branches not taken included: rows of a
-/// square of this radius stay below, so the sums hold no loop but their own.
+/// Largest radius, pixels: beyond it light is renormalized, and the loops stay bounded.
+///
+/// Mesa's llvmpipe ends loops after 65536 rounds in all, inner loops and those of branches not taken included, and counts
+/// neighbouring pixels together: their discs fit a square of 241² = 58081 pixels. So nothing that is called for each of
+/// them may loop.
 const DENSE_LARGEST_RADIUS: f32 = 120.0;
 
 /// Pixels around the centre, along each axis, whose share is integrated over their area.
@@ -24,10 +26,16 @@ fn dense_radius(point: SurfacePoint) -> i32 {
 /// Light of all pixels within the filter radius of the pixel `centre`, whose target is of `size`.
 fn gather_dense(point: SurfacePoint, centre: vec2i, size: vec2i) -> Gathered {
     let radius = dense_radius(point);
-    return together(gather_near(point, centre, size, radius), gather_far(point, centre, size, radius));
+    let near = gather_near(point, centre, size, radius);
+    let around = together(near, gather_far(point, centre, size, radius));
+    let own = input_pixel(centre);
+    if !accepts_material(point, own.material) {
+        return around;
+    }
+    return together(sent_light(point, own, centre, centre_share(point)), around);
 }
 
-/// Light of the pixels whose share is integrated.
+/// Light of the pixels around the centre whose share is integrated.
 fn gather_near(point: SurfacePoint, centre: vec2i, size: vec2i, radius: i32) -> Gathered {
     let first = max(centre - DENSE_INTEGRATED, vec2i(0));
     let last = min(centre + DENSE_INTEGRATED, size - 1);
@@ -35,8 +43,9 @@ fn gather_near(point: SurfacePoint, centre: vec2i, size: vec2i, radius: i32) -> 
     for (var y = first.y; y <= last.y; y += 1) {
         for (var x = first.x; x <= last.x; x += 1) {
             let apart = vec2i(x, y) - centre;
-            if dot(apart, apart) <= radius * radius {
-                let pixel = input_pixel(vec2i(x, y));
+            let squared_distance = dot(apart, apart);
+            let pixel = input_pixel(vec2i(x, y));
+            if squared_distance > 0 && squared_distance <= radius * radius && accepts_material(point, pixel.material) {
                 let share = near_share(point, apart, depth_difference_mm(point, pixel.distance_mm));
                 gathered = together(gathered, sent_light(point, pixel, vec2i(x, y), share));
             }
@@ -45,7 +54,7 @@ fn gather_near(point: SurfacePoint, centre: vec2i, size: vec2i, radius: i32) -> 
     return gathered;
 }
 
-/// Light of the others.
+/// Light of the pixels beyond those that are integrated.
 fn gather_far(point: SurfacePoint, centre: vec2i, size: vec2i, radius: i32) -> Gathered {
     let first_row = max(centre.y - radius, 0);
     let last_row = min(centre.y + radius, size.y - 1);
@@ -57,8 +66,8 @@ fn gather_far(point: SurfacePoint, centre: vec2i, size: vec2i, radius: i32) -> G
         let last = min(centre.x + half_width, size.x - 1);
         for (var x = max(centre.x - half_width, 0); x <= last; x += 1) {
             let apart = vec2i(x, y) - centre;
-            if any(abs(apart) > vec2i(DENSE_INTEGRATED)) {
-                let pixel = input_pixel(vec2i(x, y));
+            let pixel = input_pixel(vec2i(x, y));
+            if any(abs(apart) > vec2i(DENSE_INTEGRATED)) && accepts_material(point, pixel.material) {
                 let share = far_share(point, apart, depth_difference_mm(point, pixel.distance_mm));
                 gathered = together(gathered, sent_light(point, pixel, vec2i(x, y), share));
             }
@@ -67,27 +76,21 @@ fn gather_far(point: SurfacePoint, centre: vec2i, size: vec2i, radius: i32) -> G
     return gathered;
 }
 
-/// Light of a pixel whose share is known.
+/// Light of an accepted pixel whose share is known.
 fn sent_light(point: SurfacePoint, pixel: InputPixel, position: vec2i, share: vec3f) -> Gathered {
-    if !accepts_material(point, pixel.material) {
-        return Gathered(vec3f(0.0), vec3f(0.0));
-    }
     let weight = accepted_by_normal(point.normal, position, point.span_mm) * share;
     return Gathered(weight * pixel.irradiance, weight);
 }
 
-/// Share of the light that a pixel `apart` from the centre and `depth_mm` away in depth sends there.
+/// Share of the light that a pixel far from the centre, `apart` from it and `depth_mm` away in depth, sends there.
 fn far_share(point: SurfacePoint, apart: vec2i, depth_mm: f32) -> vec3f {
     let area = point.pixel_mm * point.pixel_mm;
     let squared_mm = area * f32(dot(apart, apart)) + depth_mm * depth_mm;
     return area * channel_area_pdf(point.profiles, sqrt(squared_mm));
 }
 
-/// The same, integrated over the pixel.
+/// Share that a pixel near the centre sends, integrated over its area.
 fn near_share(point: SurfacePoint, apart: vec2i, depth_mm: f32) -> vec3f {
-    if all(apart == vec2i(0)) {
-        return centre_share(point);
-    }
     let area = point.pixel_mm * point.pixel_mm;
     var share = vec3f(0.0);
     for (var place = 0; place < DENSE_POINTS * DENSE_POINTS; place += 1) {
@@ -106,8 +109,10 @@ fn centre_share(point: SurfacePoint) -> vec3f {
     let nodes = vec4f(0.06943184, 0.33000948, 0.66999052, 0.93056816);
     let weights = vec4f(0.17392742, 0.32607258, 0.32607258, 0.17392742);
     let radii = 0.5 * point.pixel_mm / cos(nodes * (0.125 * TAU));
-    return weights.x * channel_radial_cdf(point.profiles, radii.x)
-        + weights.y * channel_radial_cdf(point.profiles, radii.y)
-        + weights.z * channel_radial_cdf(point.profiles, radii.z)
-        + weights.w * channel_radial_cdf(point.profiles, radii.w);
+    // A loop, since there is a driver (SwiftShader) that compiles twelve CDFs in a row for minutes.
+    var share = vec3f(0.0);
+    for (var node = 0; node < 4; node += 1) {
+        share += weights[node] * channel_radial_cdf(point.profiles, radii[node]);
+    }
+    return share;
 }

@@ -113,6 +113,11 @@ fn taps_at(point: SurfacePoint) -> f32 {
     return 2.0 * f32(2u * taps_per_side(point, max(subsurface_view.taps, 1u) - 1u) + 1u);
 }
 
+/// The largest number of them.
+fn most_taps() -> f32 {
+    return 2.0 * f32(subsurface_view.taps);
+}
+
 /// What the first pass keeps of a pixel.
 @fragment
 fn first_fragment(@builtin(position) position: vec4f) -> @location(0) vec2u {

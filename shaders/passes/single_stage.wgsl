@@ -2,6 +2,7 @@
 //
 //     fn gather_at(point: SurfacePoint, pixel: vec2i) -> Gathered     light for the point that `pixel` shows
 //     fn taps_at(point: SurfacePoint) -> f32                          taps per pixel, for the debug view
+//     fn most_taps() -> f32                                           the largest number of them
 
 /// Diffused irradiance at `pixel`, whose texel of the irradiance is `own`; a pixel that does not scatter keeps it.
 fn diffuse_single_stage(pixel: vec2i, own: vec4f) -> vec4f {

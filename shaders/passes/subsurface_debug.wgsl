@@ -20,8 +20,8 @@ fn heat(value: f32) -> vec3f {
 fn debug_colour(pixel: vec2i, point: SurfacePoint) -> vec3f {
     switch subsurface_view.debug_view {
         case DEBUG_TAPS: {
-            // The scale is logarithmic: a budget of one tap and of a thousand both show.
-            return heat(log2(1.0 + taps_at(point)) / log2(1.0 + 4.0 * f32(max(subsurface_view.taps, 1u))));
+            // The scale is logarithmic: a few taps and a thousand both show. White is the budget.
+            return heat(log2(1.0 + taps_at(point)) / log2(1.0 + max(most_taps(), 1.0)));
         }
         case DEBUG_FILTER_RADIUS: {
             return heat(log2(1.0 + point.filter_radius_pixels) / log2(1.0 + DEBUG_LARGEST_RADIUS));

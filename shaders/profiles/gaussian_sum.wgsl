@@ -23,13 +23,13 @@ fn gaussian_term(profile: vec4f, place: u32) -> vec2f {
     return vec2f(select(0.0, term[u32(profile.z)], index <= last), term.w);
 }
 
-/// Its share of R(r) / A per unit area, mm⁻².
+/// A term's share of R(r) / A per unit area, mm⁻².
 fn gaussian_term_area_pdf(profile: vec4f, place: u32, radius_mm: f32) -> f32 {
     let term = gaussian_term(profile, place);
     return term.x * exp(-radius_mm * radius_mm / (2.0 * term.y)) / (TAU * term.y);
 }
 
-/// Its share of the fraction of the energy within `radius_mm`.
+/// A term's share of the fraction of the energy within `radius_mm`: w (1 − e^(−r²/2v)).
 fn gaussian_term_radial_cdf(profile: vec4f, place: u32, radius_mm: f32) -> f32 {
     let term = gaussian_term(profile, place);
     return term.x * one_minus_exp(radius_mm * radius_mm / (2.0 * term.y));

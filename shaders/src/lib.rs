@@ -43,7 +43,8 @@ pub const LIBRARY: &[Module] = modules![
 /// Profile models in f32: the twins of `subsurface-profile`'s.
 ///
 /// A module `profiles/<model>` defines `<model>_profile`, `<model>_area_pdf`, `<model>_radial_pdf`,
-/// `<model>_radial_cdf` and `<model>_sample_radius`; lengths in mm.
+/// `<model>_radial_cdf` and `<model>_sample_radius`; lengths in mm. What adds up the terms of `gaussian_sum` or searches
+/// a table comes from the compiler, as long as a material set needs it.
 pub const PROFILES: &[Module] = modules![
     "profiles/burley",
     "profiles/exponential_dipole",

@@ -42,7 +42,7 @@ pub fn scores(report: &Report) -> String {
     if report.is_reference_doubtful() {
         text.push_str(
             "warning: the reference does not hold, so the errors above say nothing. This driver may end long loops: \
-             try another adapter or smaller --footprints\n",
+             try another adapter, smaller --footprints, or Gaussian sums of at most 32 terms\n",
         );
     }
     for declined in &report.declined {

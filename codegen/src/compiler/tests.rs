@@ -97,6 +97,31 @@ fn equal_gaussian_sums_share_their_terms() {
 }
 
 #[test]
+fn the_longest_of_a_set_decides_how_much_is_written_out() {
+    let sum =
+        |terms: usize| format!("GaussianSum([{}])", "(variance_mm2: 1, weight: (1, 1, 1)), ".repeat(terms));
+    // Bins of radius: a table has a knot more.
+    let csv = |bins: usize| {
+        let rows = (0..bins).map(|bin| format!("{bin},{},0.1\n", bin + 1)).collect::<String>();
+        format!("r_lo,r_hi,radial_reflectance\n{rows}")
+    };
+    let table = |name: &str| material(&format!("Tabulated(file: \"{name}\")"));
+    for [first, second] in [[2, 9], [9, 2]] {
+        let files = [("a.ron", material(&sum(first))), ("b.ron", material(&sum(second)))];
+        let sums = compile(&files).wgsl;
+        assert_eq!(sums.matches("sum += gaussian_term_area_pdf(").count(), 9, "{first} and {second} terms");
+        let files = [
+            ("a.ron", table("first.csv")),
+            ("b.ron", table("second.csv")),
+            ("first.csv", csv(first)),
+            ("second.csv", csv(second)),
+        ];
+        let tables = compile(&files).wgsl;
+        assert_eq!(tables.matches("start = tabulated_stride(").count(), 4, "{first} and {second} pieces");
+    }
+}
+
+#[test]
 fn a_runtime_path_that_is_none_is_refused() {
     let files = [("a.ron", material("Burley(parametrization: Diffuse)"))];
     let files = files.iter().map(|(path, text)| (*path, text.as_str()));

@@ -114,9 +114,15 @@ pub fn table_files() -> [(String, String); 2] {
 }
 
 /// Files of profiles that tests alone use.
-pub fn test_profile_files() -> [(String, String); 2] {
-    [("exponentials_alone", exponentials_alone()), ("many_gaussians", many_gaussians())]
-        .map(|(stem, profile)| (format!("profiles/{stem}.ron"), profile))
+pub fn test_profile_files() -> [(String, String); 5] {
+    [
+        ("exponentials_alone.ron", exponentials_alone()),
+        ("many_gaussians.ron", gaussians(70)),
+        ("short_table.ron", "Tabulated(file: \"tables/short.csv\")".to_owned()),
+        ("tables/short.csv", "r_lo,r_hi,radial_reflectance\n0,0.5,0.6\n0.5,2,0.2\n2,6,0.05\n".to_owned()),
+        ("two_gaussians.ron", gaussians(2)),
+    ]
+    .map(|(file, text)| (format!("profiles/{file}"), text))
 }
 
 /// No share of the light for a dipole that would reach far.
@@ -127,9 +133,9 @@ fn exponentials_alone() -> String {
         .to_owned()
 }
 
-/// More terms than the compiler writes out, by more than their half.
-fn many_gaussians() -> String {
-    let terms = (0..70_u32).map(|index| {
+/// A sum of so many terms, with weights of their own in each channel.
+fn gaussians(terms: u32) -> String {
+    let terms = (0..terms).map(|index| {
         let variance = 0.01 * 1.1_f64.powf(f64::from(index));
         let [red, green, blue] = [7, 5, 3].map(|period| 0.01 + 0.01 * f64::from(index % period));
         format!("(variance_mm2: {variance}, weight: ({red}, {green}, {blue}))")

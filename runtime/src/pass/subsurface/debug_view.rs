@@ -2,7 +2,7 @@
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum DebugView {
-    /// Taps per pixel, on a logarithmic scale.
+    /// Taps per pixel, on a logarithmic scale that ends at their largest number.
     Taps,
     /// Radius that holds 99.7 % of the widest channel's light, on a logarithmic scale that ends at 128 pixels.
     FilterRadius,
