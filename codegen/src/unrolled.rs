@@ -2,18 +2,17 @@
 //! to 32 terms.
 //!
 //! Loops cost more than their rounds: `Dense` calls densities tens of thousands of times per pixel, and there is a
-//! driver that ends a shader's loops, inner ones included, after 65,536 rounds (Mesa's llvmpipe). A shorter sum or table
-//! pays for the longest of its set.
+//! driver that ends a shader's loops, inner ones included, after 65,536 rounds (Mesa's llvmpipe). A shorter sum or
+//! table pays for the longest of its set.
 
 use std::fmt::Write as _;
 
-/// Terms of a Gaussian sum that are written out at most; a longer sum takes as few rounds as it can.
-const MOST_TERMS_AT_ONCE: u32 = 32;
+/// Terms of a Gaussian sum that are written out at most: drivers compile more of them for long. A set with a longer sum
+/// has a loop.
+const MOST_TERMS: u32 = 32;
 
 /// The functions of a Gaussian sum that add its terms up, for sums of at most `terms` terms.
 pub(crate) fn gaussian_sums(terms: u32) -> String {
-    let rounds = terms.div_ceil(MOST_TERMS_AT_ONCE).max(1);
-    let at_once = terms.div_ceil(rounds);
     let mut text = String::new();
     for (function, docs) in [
         ("area_pdf", "R(r) / A per unit area, mm⁻²."),
@@ -22,16 +21,16 @@ pub(crate) fn gaussian_sums(terms: u32) -> String {
         let _ = writeln!(text, "/// {docs}");
         let _ = writeln!(text, "fn gaussian_sum_{function}(profile: vec4f, radius_mm: f32) -> f32 {{");
         text.push_str("    var sum = 0.0;\n");
-        let (indent, first) = if rounds > 1 { ("        ", "first + ") } else { ("    ", "") };
-        if rounds > 1 {
-            let terms = "u32(profile.y) - u32(profile.x)";
-            let _ = writeln!(text, "    for (var first = 0u; first < {terms}; first += {at_once}u) {{");
+        let term = |place: &str| format!("sum += gaussian_term_{function}(profile, {place}, radius_mm);");
+        if terms > MOST_TERMS {
+            let count = "u32(profile.y) - u32(profile.x)";
+            let _ = writeln!(text, "    for (var place = 0u; place < {count}; place += 1u) {{");
+            let _ = writeln!(text, "        {}\n    }}", term("place"));
+        } else {
+            for place in 0..terms {
+                let _ = writeln!(text, "    {}", term(&format!("{place}u")));
+            }
         }
-        for place in 0..at_once {
-            let term = format!("gaussian_term_{function}(profile, {first}{place}u, radius_mm)");
-            let _ = writeln!(text, "{indent}sum += {term};");
-        }
-        text.push_str(if rounds > 1 { "    }\n" } else { "" });
         text.push_str("    return sum;\n}\n\n");
     }
     text
@@ -84,9 +83,9 @@ fn gaussian_sum_area_pdf(profile: vec4f, radius_mm: f32) -> f32 {
     }
 
     #[test]
-    fn longer_sums_are_cut_into_even_rounds() {
+    fn longer_sums_have_a_loop() {
         let text = gaussian_sums(33);
-        assert_eq!((text.matches("sum += ").count(), text.matches("for (").count()), (2 * 17, 2), "{text}");
+        assert_eq!((text.matches("sum += ").count(), text.matches("for (").count()), (2, 2), "{text}");
     }
 
     #[test]

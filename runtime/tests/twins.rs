@@ -71,8 +71,8 @@ fn wgsl_agrees_with_the_f64_models() {
 
 #[test]
 fn sums_of_many_terms_agree_with_the_f64_models() {
-    // More terms than the compiler writes out, in rounds of which the last is not full, and few. Variances are absolute, so one
-    // length does. (The table is there since the entry point is bound to one.)
+    // More terms than the compiler writes out, and few. Variances are absolute, so one length does. (The table is there
+    // since the entry point is bound to one.)
     hold_against_f64(&["gaussian_skin", "many_gaussians", "tabulated"], &[1.0]);
 }
 

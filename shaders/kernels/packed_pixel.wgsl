@@ -10,8 +10,8 @@ const MATERIAL_MASK: u32 = (1u << MATERIAL_BITS) - 1u;
 /// Bits of a key that hold the distance.
 const DISTANCE_MASK: u32 = 0x7fffffffu & ~MATERIAL_MASK;
 
-/// A first word that holds no irradiance: an exponent without mantissas. Light with an exponent above 0 has one of 256 and
-/// more.
+/// A first word that holds no irradiance: an exponent without mantissas. Light with an exponent above 0 has one of 256
+/// and more.
 const NO_LIGHT: u32 = 31u << 27u;
 
 /// Exponent of the smallest step of an irradiance, 2^−40, with the bias of f32: below 2^−32 bits of the mantissas go.

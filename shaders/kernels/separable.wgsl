@@ -1,9 +1,9 @@
 // Two passes along one axis each: Jimenez et al. 2015, "Separable Subsurface Scattering".
 //
 // The weight of a tap is the light that a line source sends into the tap's strip: the difference of the profile's edge
-// spread F at the strip's ends, not a sample of the line spread at its middle. Taps lie closer together near the centre,
-// at the squares of even steps as in that paper but a pixel apart at least; strips meet half way between taps, and the
-// last ones are open.
+// spread F at the strip's ends, not a sample of the line spread at its middle. Taps lie closer together near the
+// centre, at the squares of even steps as in that paper but a pixel apart at least; strips meet half way between taps,
+// and the last ones are open.
 
 /// Fraction of the light beyond a line `offset_mm` from an edge, per channel, which is 1 − F.
 fn beyond_line(surface: MaterialSurface, profiles: ChannelProfiles, offset_mm: f32) -> vec3f {
@@ -29,8 +29,8 @@ fn curve_beyond_line(surface: MaterialSurface, curve: vec3f, offset_mm: f32) -> 
     return max(1.0 - start_and_rise.x - start_and_rise.y * (place - step), 0.0);
 }
 
-/// Distance of tap `tap` of `taps` on one side of the centre, in whole pixels: the squares of even steps up to the reach,
-/// but no two taps on one pixel, so that strips end between pixels.
+/// Distance of tap `tap` of `taps` on one side of the centre, in whole pixels: the squares of even steps up to the
+/// reach, but no two taps on one pixel, so that strips end between pixels.
 fn tap_offset(tap: f32, taps: f32, reach_pixels: f32) -> f32 {
     let step = tap / taps;
     return max(round(step * step * min(reach_pixels, LARGEST_TAP_DISTANCE)), tap);

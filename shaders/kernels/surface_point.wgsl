@@ -36,8 +36,8 @@ const LARGEST_MEAN_FREE_PATH_SCALE: f32 = 1e3;
 /// Smallest length of a pixel, mm: the number of pixels in a radius stays a finite f32.
 const SMALLEST_PIXEL_MM: f32 = 1e-12;
 
-/// The point at `position`, with the profiles that its material has at this surface albedo, and the normal of `pixel`. The
-/// scale is within its limits.
+/// The point at `position`, with the profiles that its material has at this surface albedo, and the normal of `pixel`.
+/// The scale is within its limits.
 fn surface_point(
     view: SubsurfaceView,
     pixel: vec2i,

@@ -46,8 +46,8 @@ fn exponential_dipole_radial_cdf(profile: vec4f, radius_mm: f32) -> f32 {
 
 /// Inverse of `exponential_dipole_radial_cdf`.
 ///
-/// A mixture's quantile lies between those of its two parts, and below the radius at which the exponential's share alone
-/// has the fraction u; Newton's method inside that bracket, halving it wherever a step would leave it.
+/// A mixture's quantile lies between those of its two parts, and below the radius at which the exponential's share
+/// alone has the fraction u; Newton's method inside that bracket, halving it wherever a step would leave it.
 fn exponential_dipole_sample_radius(profile: vec4f, u: f32) -> f32 {
     let target_log = negative_log_complement(u);
     let exponential_radius = profile.y * target_log;

@@ -119,8 +119,8 @@ fn dense_sums_every_pixel_within_its_largest_radius() {
         let half = middle(|y| if y == LARGEST { 0.5 } else { f32::from(y > LARGEST) });
         let last = middle(|y| f32::from(y == 2 * LARGEST));
         println!("Dense, {stem}: half the plane gives {half:.5?}, its last row {last:?}");
-        // 45,000 roundings of a sum of at most 1, a random walk of 6e-8 each, are 1.3e-5; rounding to a side, as of many
-        // terms that are alike, makes more of them. Measured: 1e-5.
+        // 45,000 roundings of a sum of at most 1, a random walk of 6e-8 each, are 1.3e-5; rounding to a side, as of
+        // many terms that are alike, makes more of them. Measured: 1e-5.
         assert!(half[..3].iter().all(|light| (light - 0.5).abs() < 2e-4), "{stem}: {half:?}");
         assert!(last[..3].iter().any(|&light| light > 0.0), "{stem}: the last row is not summed");
     }
