@@ -1,9 +1,9 @@
-//! Loops of the profiles, written out as long as a material set needs them: searches of tables whole, Gaussian sums up
-//! to 32 terms.
+//! Loops of densities and CDFs, written out as long as a material set needs them: the search of a table for a radius,
+//! and Gaussian sums of up to 32 terms.
 //!
 //! Loops cost more than their rounds: `Dense` calls densities tens of thousands of times per pixel, and there is a
-//! driver that ends a shader's loops, inner ones included, after 65,536 rounds (Mesa's llvmpipe). A shorter sum or
-//! table pays for the longest of its set.
+//! driver that ends a shader's loops, inner ones included, after 65,536 rounds (Mesa's llvmpipe). Where it is
+//! written out, a shorter sum or table pays for the longest of its set.
 
 use std::fmt::Write as _;
 
@@ -36,13 +36,17 @@ pub(crate) fn gaussian_sums(terms: u32) -> String {
     text
 }
 
+/// The head of the search, whose strides follow.
+const TABLE_SEARCH: &str = "\
+/// The last piece that does not begin beyond `radius`, in mean free paths: strides are halved from the longest that a
+/// table of the set needs.
+fn tabulated_piece_start(profile: vec4f, radius: f32) -> u32 {
+    var start = 0u;
+";
+
 /// The search for the piece of a table that holds a radius, for tables of at most `knots` knots.
 pub(crate) fn table_search(knots: u32) -> String {
-    let mut text = String::from(
-        "/// The last piece that does not begin beyond `radius`, in mean free paths: strides are halved from the longest \
-         that a\n/// table of the set needs.\nfn tabulated_piece_start(profile: vec4f, radius: f32) -> u32 {\n    \
-         var start = 0u;\n",
-    );
+    let mut text = TABLE_SEARCH.to_owned();
     // The last knot begins no piece, and the search starts at the first.
     let farthest = knots.saturating_sub(2);
     let strides = u32::BITS - farthest.leading_zeros();

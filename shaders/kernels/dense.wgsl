@@ -7,8 +7,9 @@ const DENSE_QUANTILE: f32 = 0.999;
 /// Largest radius, pixels: beyond it light is renormalized, and the loops stay bounded.
 ///
 /// Mesa's llvmpipe ends loops after 65536 rounds in all, inner loops and those of branches not taken included, and
-/// counts neighbouring pixels together: their discs fit a square of 241² = 58081 pixels. So nothing that is called for
-/// each of them may loop.
+/// counts neighbouring pixels together: their discs fit a square of 241² = 58081 pixels, and there are about 700 rounds
+/// besides. So nothing that is called for each of them may loop; a Gaussian sum of more than 32 terms does, and may be
+/// cut short.
 const DENSE_LARGEST_RADIUS: f32 = 120.0;
 
 /// Pixels around the centre, along each axis, whose share is integrated over their area.

@@ -115,7 +115,8 @@ fn taps_at(point: SurfacePoint) -> f32 {
 
 /// The largest number of them.
 fn most_taps() -> f32 {
-    return 2.0 * f32(subsurface_view.taps);
+    let on_both_sides = min(max(subsurface_view.taps, 1u) - 1u, LARGEST_TAP_COUNT);
+    return 2.0 * f32(2u * ((on_both_sides + 1u) / 2u) + 1u);
 }
 
 /// What the first pass keeps of a pixel.

@@ -20,8 +20,10 @@ fn heat(value: f32) -> vec3f {
 fn debug_colour(pixel: vec2i, point: SurfacePoint) -> vec3f {
     switch subsurface_view.debug_view {
         case DEBUG_TAPS: {
-            // The scale is logarithmic: a few taps and a thousand both show. White is the budget.
-            return heat(log2(1.0 + taps_at(point)) / log2(1.0 + max(most_taps(), 1.0)));
+            // A filter of less than a pixel takes none.
+            let taps = select(taps_at(point), 0.0, footprint_taps(point, subsurface_view.taps) == 0u);
+            // The scale is logarithmic: a few taps and a thousand both show. White is the largest number.
+            return heat(log2(1.0 + taps) / log2(1.0 + max(most_taps(), 1.0)));
         }
         case DEBUG_FILTER_RADIUS: {
             return heat(log2(1.0 + point.filter_radius_pixels) / log2(1.0 + DEBUG_LARGEST_RADIUS));

@@ -43,8 +43,9 @@ pub const LIBRARY: &[Module] = modules![
 /// Profile models in f32: the twins of `subsurface-profile`'s.
 ///
 /// A module `profiles/<model>` defines `<model>_profile`, `<model>_area_pdf`, `<model>_radial_pdf`,
-/// `<model>_radial_cdf` and `<model>_sample_radius`; lengths in mm. What adds up the terms of `gaussian_sum` or searches
-/// a table comes from the compiler, as long as a material set needs it.
+/// `<model>_radial_cdf` and `<model>_sample_radius`; lengths in mm. `gaussian_sum_area_pdf`,
+/// `gaussian_sum_radial_cdf` and the search of a table for a radius come from the compiler, which writes them out to the
+/// length that a material set needs.
 pub const PROFILES: &[Module] = modules![
     "profiles/burley",
     "profiles/exponential_dipole",

@@ -116,3 +116,24 @@ fn the_variance_is_of_light_in_any_unit() {
         assert!(diffuser.show(DebugView::Variance, &view, &scaled) == plain, "light times {factor:e}");
     }
 }
+
+#[test]
+fn taps_go_from_none_to_their_largest_number() {
+    let buffers = Buffers::plane([20, 20], 0);
+    for kernel in KERNELS {
+        let mut diffuser = Diffuser::new(&Description::pair(kernel), Path::Compute);
+        // An even number too: separable kernels have odd ones.
+        for taps in [4, 17] {
+            let mut shown = |millimetres_per_pixel: f32| {
+                let view = SubsurfaceView::orthographic_distances(millimetres_per_pixel).with_taps(taps);
+                diffuser.show(DebugView::Taps, &view, &buffers)[0]
+            };
+            let colours = [1e3, 3.0, 1e-3].map(&mut shown);
+            let [none, some, most] = colours.map(|[red, green, blue, _]| red + green + blue);
+            // Three for white, but for the rounding of two logarithms.
+            assert!(none == 0.0 && some > 0.0 && most > 2.999, "{kernel}, {taps} taps: {colours:?}");
+            // No other kernel's number grows with the footprint once its budget is reached.
+            assert!(kernel != Kernel::Dense || some < most, "{kernel}: {colours:?}");
+        }
+    }
+}

@@ -111,17 +111,27 @@ fn dense_sums_every_pixel_within_its_largest_radius() {
             Buffers::plane(SIZE, material).scaled(|x, y| if [x, y] == [LARGEST; 2] { 1.0 } else { 1e-3 });
         let millimetres_per_pixel = widest_radius_mm(stem, 0.99) / f64::from(LARGEST);
         let view = SubsurfaceView::orthographic_distances(millimetres_per_pixel as f32);
-        let mut middle = |row: fn(u32) -> f32| -> [f32; 4] {
-            let buffers = plane.clone().lit(|_, y| [row(y); 3]);
-            diffuser.diffuse(&view, &buffers)[buffers.index(LARGEST, LARGEST)]
+        let mut middle = |light: &dyn Fn(u32, u32) -> f32| -> [f32; 3] {
+            let buffers = plane.clone().lit(|x, y| [light(x, y); 3]);
+            let [red, green, blue, _] = diffuser.diffuse(&view, &buffers)[buffers.index(LARGEST, LARGEST)];
+            [red, green, blue]
         };
         // By symmetry half of the light arrives: less, where a driver ends the sum's loops before the last rows.
-        let half = middle(|y| if y == LARGEST { 0.5 } else { f32::from(y > LARGEST) });
-        let last = middle(|y| f32::from(y == 2 * LARGEST));
-        println!("Dense, {stem}: half the plane gives {half:.5?}, its last row {last:?}");
+        let half = middle(&|_, y| if y == LARGEST { 0.5 } else { f32::from(y > LARGEST) });
+        println!("Dense, {stem}: half the plane gives {half:.5?}");
         // 45,000 roundings of a sum of at most 1, a random walk of 6e-8 each, are 1.3e-5; rounding to a side, as of
         // many terms that are alike, makes more of them. Measured: 1e-5.
-        assert!(half[..3].iter().all(|light| (light - 0.5).abs() < 2e-4), "{stem}: {half:?}");
-        assert!(last[..3].iter().any(|&light| light > 0.0), "{stem}: the last row is not summed");
+        assert!(half.iter().all(|light| (light - 0.5).abs() < 2e-4), "{stem}: {half:?}");
+        // The disc touches the frame's border in the middle of each side, and leaves out its corners.
+        let borders: [&dyn Fn(u32, u32) -> bool; 4] =
+            [&|x, _| x == 0, &|x, _| x == 2 * LARGEST, &|_, y| y == 0, &|_, y| y == 2 * LARGEST];
+        for (side, border) in borders.into_iter().enumerate() {
+            let light = middle(&|x, y| f32::from(border(x, y)));
+            assert!(light.iter().any(|&light| light > 0.0), "{stem}: side {side} is not summed");
+        }
+        let is_beyond =
+            |x: u32, y: u32| x.abs_diff(LARGEST).pow(2) + y.abs_diff(LARGEST).pow(2) > LARGEST.pow(2);
+        let beyond = middle(&|x, y| f32::from(is_beyond(x, y)));
+        assert_eq!(beyond, [0.0; 3], "{stem}: corners are summed");
     }
 }
