@@ -7,8 +7,8 @@
 
 use std::fmt::Write as _;
 
-/// Terms of a Gaussian sum that are written out at most: drivers compile more of them for long. A set with a longer sum
-/// has a loop.
+/// Terms of a Gaussian sum that are written out at most: some drivers compile long functions slowly. A set with a longer
+/// sum has a loop.
 const MOST_TERMS: u32 = 32;
 
 /// The functions of a Gaussian sum that add its terms up, for sums of at most `terms` terms.

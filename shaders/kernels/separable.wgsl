@@ -46,9 +46,9 @@ fn first_axis(pixel: vec2i, frame: u32) -> vec2f {
     return vec2f(cos(angle), sin(angle));
 }
 
-/// Taps on each side of the centre for a budget of `budget` in all.
-fn taps_per_side(point: SurfacePoint, budget: u32) -> u32 {
-    return (footprint_taps(point, budget) + 1u) / 2u;
+/// Taps on each side of the centre, of `beside_centre` on both; an odd one is rounded up.
+fn taps_per_side(beside_centre: u32) -> u32 {
+    return (beside_centre + 1u) / 2u;
 }
 
 /// Share of a strip's light that is left of it where the surface lies `depth_mm` deeper or higher: what lies beyond the

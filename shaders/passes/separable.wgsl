@@ -9,7 +9,7 @@ fn gather_line(
     blurred: texture_2d<u32>,
     is_second: bool,
 ) -> Gathered {
-    let sides = taps_per_side(point, max(subsurface_view.taps, 1u) - 1u);
+    let sides = taps_per_side(footprint_taps(point, budget_beside_centre()));
     let reach = point.filter_radius_pixels;
     let steps = f32(max(sides, 1u));
     // The centre's strip ends half way to the first tap, on both sides.
@@ -108,15 +108,24 @@ fn blur_second(pixel: vec2i, texel: vec4f, blurred: texture_2d<u32>) -> vec4f {
     return vec4f(mix(own, diffused, footprint_blend(point)), texel.a);
 }
 
-/// Taps per pixel: both passes.
+/// Taps of a pass beside the one at the centre, at most.
+fn budget_beside_centre() -> u32 {
+    return max(subsurface_view.taps, 1u) - 1u;
+}
+
+/// Taps of both passes, of which `beside_centre` lie beside each one's centre.
+fn taps_of_passes(beside_centre: u32) -> f32 {
+    return 2.0 * f32(2u * taps_per_side(beside_centre) + 1u);
+}
+
+/// Taps per pixel.
 fn taps_at(point: SurfacePoint) -> f32 {
-    return 2.0 * f32(2u * taps_per_side(point, max(subsurface_view.taps, 1u) - 1u) + 1u);
+    return taps_of_passes(footprint_taps(point, budget_beside_centre()));
 }
 
 /// The largest number of them.
 fn most_taps() -> f32 {
-    let on_both_sides = min(max(subsurface_view.taps, 1u) - 1u, LARGEST_TAP_COUNT);
-    return 2.0 * f32(2u * ((on_both_sides + 1u) / 2u) + 1u);
+    return taps_of_passes(min(budget_beside_centre(), LARGEST_TAP_COUNT));
 }
 
 /// What the first pass keeps of a pixel.
