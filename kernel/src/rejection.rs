@@ -1,8 +1,8 @@
-//! Which taps a kernel leaves out, and where their light goes.
+//! Which taps an estimator leaves out, and where their light goes.
 
 use std::fmt;
 
-/// Which taps a kernel leaves out because no light gets from there to the pixel under the surface, and what becomes of
+/// Which taps an estimator leaves out because no light gets from there to the pixel under the surface, and what becomes of
 /// their weight.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Rejection {
@@ -17,7 +17,7 @@ pub struct Rejection {
     pub rejected: Rejected,
 }
 
-/// What becomes of the weight of taps that a kernel leaves out.
+/// What becomes of the weight of taps that an estimator leaves out.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Rejected {
     /// The other taps share it: a constant irradiance stays constant.
@@ -34,7 +34,7 @@ impl Default for Rejection {
 }
 
 impl Rejected {
-    /// Name as in RON: `Renormalized` or `ReturnedToCentre`.
+    /// Name as in material files: `Renormalized` or `ReturnedToCentre`.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {

@@ -1,0 +1,140 @@
+//! Numbers that stand in Rust and in WGSL.
+//!
+//! Each is written once, here. [`ALL`] lists them with name, value and comment: the compiler declares those that a module
+//! uses, so no `.wgsl` file spells one.
+
+/// A number that the compiler declares in WGSL.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Constant {
+    /// Name in Rust and in WGSL.
+    pub name: &'static str,
+    /// Value, with its WGSL type.
+    pub value: ConstantValue,
+    /// Lines of its comment.
+    pub docs: &'static [&'static str],
+}
+
+/// A value with its WGSL type. Rust computes in `f64`; WGSL gets the nearest `f32`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum ConstantValue {
+    /// `f32`.
+    F32(f64),
+    /// `i32`.
+    I32(i32),
+    /// `u32`.
+    U32(u32),
+    /// `vec3f`.
+    Vec3([f64; 3]),
+}
+
+macro_rules! constants {
+    ($($(#[doc = $docs:literal])+ $name:ident: $variant:ident($ty:ty) = $value:expr;)+) => {
+        $($(#[doc = $docs])+ pub const $name: $ty = $value;)+
+
+        /// Every number of this module that a shader may use.
+        pub const ALL: &[Constant] = &[$(Constant {
+            name: stringify!($name),
+            value: ConstantValue::$variant($name),
+            docs: &[$($docs),+],
+        }),+];
+    };
+}
+
+constants! {
+    /// Share of the light that counts as all of it where the reach of a profile is asked for.
+    FILTER_QUANTILE: F32(f64) = 0.997;
+
+    /// Bound of every loop over taps.
+    LARGEST_TAP_COUNT: U32(u32) = 4096;
+
+    /// Texels of a row of the profile curves: steps of a curve.
+    CURVE_STEPS: U32(u32) = 64;
+
+    /// Rows of a column of curves: what the smallest texture limit of WebGPU holds.
+    CURVE_ROWS: U32(u32) = 8192;
+
+    /// Side of a block, pixels: the pixels of a block share one far field.
+    BLOCK_SIDE: I32(i32) = 2;
+
+    /// Depth difference, in pixels, up to which pixels of one material belong to one block or to one far field.
+    BLOCK_DEPTH_PIXELS: F32(f64) = 6.0;
+
+    /// Radii are drawn from the widest profile made wider by this factor: the other channels' tails and depth
+    /// differences need more of the far taps than the profile itself has.
+    FAR_STRETCH: F32(f64) = 1.2;
+
+    /// Share of the stretched profile that is sampled; what lies beyond is renormalized.
+    FAR_QUANTILE: F32(f64) = 0.98;
+
+    /// Slices of the common lattice: one for each block of any 2×2 blocks.
+    LATTICE_SLICES: U32(u32) = 4;
+
+    /// Shares of a window in the blocks along an axis: in the block on the pixel's farther side, in its own, and on its
+    /// nearer side. The pixel lies a quarter of a block off the middle of its own.
+    ///
+    /// This window is as wide as two blocks: wherever the pixel lies, every slice has a quarter of it.
+    EVEN_WINDOW: Vec3([f64; 3]) = [0.125, 0.5, 0.375];
+
+    /// Linear between the middles of the blocks: less blur, but the slices count unevenly.
+    LINEAR_WINDOW: Vec3([f64; 3]) = [0.0, 0.75, 0.25];
+
+    /// Taps per pixel up to which the window is the even one. With more of them a slice alone has less noise.
+    EVEN_WINDOW_TAPS: F32(f64) = 4.0;
+
+    /// Radius of the disc with the area of a pixel, pixels: 1 / √π, to the digits of an f32.
+    NEAR_RADIUS_PIXELS: F32(f64) = 0.564_189_58;
+
+    /// Radius of the disc with the area of nine pixels, pixels: 3 / √π.
+    FAR_RADIUS_PIXELS: F32(f64) = 3.0 * NEAR_RADIUS_PIXELS;
+
+    /// ½ log₃ 2
+    HALF_LOG_3_OF_2: F32(f64) = 0.315_464_876_785_728_7;
+
+    /// Least energy that stands for all of it. Where taps found less than this share, the centre's own light fills it
+    /// up: what little comes from a surface far behind must not be raised to a whole.
+    SMALLEST_ENERGY: F32(f64) = 1e-3;
+
+    /// Largest weight of a tap: radii are drawn from one profile, and where another has far more light there, one tap
+    /// must not outshine all others.
+    LARGEST_WEIGHT: F32(f64) = 1e4;
+
+    /// Lights that one frame can hold.
+    LIGHT_CAPACITY: U32(u32) = 4;
+}
+
+/// Knots of an edge curve lie at this power of even steps: the edge spread is steepest at the edge. The shaders take the
+/// root by two square roots.
+pub const EDGE_POWER: i32 = 4;
+
+/// Bytes of a texel of the profile curves: four f32.
+pub const CURVE_TEXEL_BYTES: usize = 16;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn discs_have_the_areas_that_they_stand_for() {
+        let area = |radius: f64| std::f64::consts::PI * radius * radius;
+        // Eight digits, whose error counts twice.
+        assert!((area(NEAR_RADIUS_PIXELS) - 1.0).abs() < 2e-8);
+        assert!((area(FAR_RADIUS_PIXELS) - 9.0).abs() < 9.0 * 2e-8);
+        assert!((HALF_LOG_3_OF_2 - 0.5 * 2f64.ln() / 3f64.ln()).abs() < 1e-15);
+    }
+
+    #[test]
+    fn windows_are_whole() {
+        for window in [EVEN_WINDOW, LINEAR_WINDOW] {
+            assert_eq!(window.iter().sum::<f64>(), 1.0);
+        }
+    }
+
+    #[test]
+    fn names_are_told_apart() {
+        for (index, constant) in ALL.iter().enumerate() {
+            assert!(ALL[..index].iter().all(|other| other.name != constant.name), "{}", constant.name);
+        }
+    }
+}
