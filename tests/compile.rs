@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use subsurface_codegen::{Compiler, Kernel, OutputFormat, Rejected, Rejection};
+use subsurface_codegen::{Compiler, Estimator, OutputFormat, Rejected, Rejection};
 
 /// Compares `text` with the blessed file; `cargo xtask bless` accepts a change.
 fn assert_blessed(folder: &str, name: &str, text: &str) {
@@ -19,7 +19,7 @@ fn a_set_of_one_model_compiles_to_the_blessed_texts() {
     let compilation = Compiler::from_memory([("skin.ron", skin)]).without_gbuffer().compile();
     let compilation = compilation.unwrap_or_else(|report| panic!("{report}"));
     for (folder, text) in
-        [("wgsl", &compilation.wgsl), ("rust", &compilation.rust), ("manifest", &compilation.manifest)]
+        [("wgsl", &compilation.wgsl()), ("rust", &compilation.rust), ("manifest", &compilation.manifest)]
     {
         // The hash covers every shader and the version: it changes with each, and says nothing new beside the text.
         assert_blessed(folder, "one_model", &text.replace(&compilation.provenance, "<sha256>"));
@@ -32,7 +32,7 @@ fn every_accepted_set_compiles() {
         let path = entry.expect("the folder can be read").path();
         let compilation = Compiler::new(&path).compile().unwrap_or_else(|report| panic!("{report}"));
         let names = compilation.material_names();
-        assert_eq!(compilation.material_table.len() % (16 * names.len()), 0, "{}", path.display());
+        assert_eq!(compilation.parts.material_rows().len() % (16 * names.len()), 0, "{}", path.display());
     }
 }
 
@@ -41,7 +41,7 @@ fn the_presets_compile_to_the_same_bytes_every_time() {
     let compile = |directory: &str| {
         let result = Compiler::new(directory).compile();
         let compilation = result.unwrap_or_else(|report| panic!("{report}"));
-        (compilation.wgsl, compilation.rust, compilation.manifest)
+        (compilation.wgsl(), compilation.rust, compilation.manifest)
     };
     let absolute = std::fs::canonicalize("materials").expect("the folder is there");
     let first = compile("materials");
@@ -53,9 +53,9 @@ fn the_presets_compile_to_the_same_bytes_every_time() {
 fn the_generated_table_is_the_one_that_is_uploaded() {
     use subsurface::presets::{MATERIALS, Material, WGSL};
     let compilation = Compiler::new("materials").compile().unwrap_or_else(|report| panic!("{report}"));
-    assert_eq!(subsurface::runtime::bytemuck::cast_slice::<_, u8>(&MATERIALS), compilation.material_table);
+    assert_eq!(subsurface::runtime::bytemuck::cast_slice::<_, u8>(&MATERIALS), compilation.parts.material_rows());
     assert_eq!(Material::NAMES.as_slice(), compilation.material_names());
-    assert_eq!(WGSL, compilation.wgsl);
+    assert_eq!(WGSL, compilation.wgsl());
     for (number, material) in Material::ALL.into_iter().enumerate() {
         assert_eq!(material.number() as usize, number);
         assert_eq!(Material::from_name(material.name()), Some(material));
@@ -67,7 +67,7 @@ fn the_caller_overrides_the_file_of_the_set() {
     let directory = "tests/in/pass/described_set";
     let compile = |compiler: Compiler| compiler.compile().unwrap_or_else(|report| panic!("{report}"));
     let own = compile(Compiler::new(directory));
-    assert_eq!(own.kernel, Kernel::ImportanceSampled { taps: 33 });
+    assert_eq!(own.kernel, Estimator::ImportanceSampled { taps: 33 });
     let rejection = Rejection {
         by_material: true,
         by_distance: false,
@@ -76,25 +76,25 @@ fn the_caller_overrides_the_file_of_the_set() {
     };
     assert_eq!((own.rejection, own.set.rejection), (rejection, rejection));
     for line in [
-        "// Kernel: ImportanceSampled, 33 taps\n",
+        "// Estimator: ImportanceSampled, 33 taps\n",
         "// Rejects: by material; rejected energy is returned to the centre\n",
         "const REJECT_BY_MATERIAL: bool = true;",
         "const REJECT_BY_DISTANCE: bool = false;",
         "const RETURN_TO_CENTRE: bool = true;",
         "texture_storage_2d<rgba16float, write>",
     ] {
-        assert!(own.wgsl.contains(line), "{line}");
+        assert!(own.wgsl().contains(line), "{line}");
     }
     assert!(own.rust.contains("KernelKind::ImportanceSampled") && own.rust.contains("taps: 33"));
 
     let default = Rejection::default();
-    let other = Compiler::new(directory).kernel(Kernel::default()).rejection(default);
+    let other = Compiler::new(directory).estimator(Estimator::default()).rejection(default);
     let other = compile(other.output_format(OutputFormat::Rgba32Float));
-    assert_eq!((other.kernel, other.rejection), (Kernel::default(), default));
+    assert_eq!((other.kernel, other.rejection), (Estimator::default(), default));
     // What the set's own file says stays on record.
     assert_eq!(other.set.kernel, own.kernel);
-    assert!(other.wgsl.contains("// Kernel: Interleaved, 4 taps\n"));
-    assert!(other.wgsl.contains("texture_storage_2d<rgba32float, write>"));
+    assert!(other.wgsl().contains("// Estimator: Interleaved, 4 taps\n"));
+    assert!(other.wgsl().contains("texture_storage_2d<rgba32float, write>"));
     assert!(other.rust.contains("KernelKind::Interleaved"));
     assert_ne!(other.provenance, own.provenance);
 }
@@ -126,29 +126,29 @@ fn a_set_that_asks_for_an_error_states_it() {
     let compilation = compile(Compiler::new(directory));
     let report = compilation.quality.as_ref().expect("the set asks for an error");
     assert!(report.error > 0.0 && report.error <= 0.03, "{report:?}");
-    assert_eq!(compilation.kernel, report.kernel);
-    let (error, taps) = (report.error, report.kernel.taps());
-    let head = format!("// Kernel: {}\n// Error: {error} of the white level", report.kernel);
-    assert!(compilation.wgsl.contains(&head), "{head}");
+    assert_eq!(compilation.estimator(), report.estimator);
+    let (error, taps) = (report.error, report.estimator.taps());
+    let head = format!("// Estimator: {}\n// Error: {error} of the white level", report.estimator);
+    assert!(compilation.wgsl().contains(&head), "{head}");
     assert!(compilation.rust.contains(&format!("pub const KERNEL_ERROR: f64 = {error};")));
     assert!(compilation.rust.contains("pub enum Quality"));
     assert!(compilation.rust.contains(&format!("taps: {taps},")));
     assert!(compilation.manifest.contains(&format!("\"error\": {error}")));
     for tier in report.tiers {
         let stated = format!("{} {} ({})", tier.tier.name(), tier.taps, tier.error);
-        assert!(compilation.wgsl.contains(&stated), "{stated}");
+        assert!(compilation.wgsl().contains(&stated), "{stated}");
     }
     // Again, and the same bytes.
     let again = compile(Compiler::new(directory));
-    assert_eq!((again.wgsl, again.rust), (compilation.wgsl, compilation.rust));
+    assert_eq!((again.wgsl(), again.rust), (compilation.wgsl(), compilation.rust));
     assert_eq!(again.manifest, compilation.manifest);
 
     // A kernel that the caller names is not searched, and a set that asks for none says nothing of errors.
-    let named = compile(Compiler::new(directory).kernel(Kernel::Dense));
+    let named = compile(Compiler::new(directory).estimator(Estimator::Dense));
     let without = compile(Compiler::new("tests/in/pass/described_set"));
     for compilation in [named, without] {
         assert_eq!(compilation.quality, None);
-        assert!(!compilation.wgsl.contains("// Error:"));
+        assert!(!compilation.wgsl().contains("// Error:"));
         assert!(!compilation.rust.contains("KERNEL_ERROR") && !compilation.rust.contains("enum Quality"));
         assert!(!compilation.manifest.contains("quality"));
     }
@@ -161,8 +161,8 @@ fn every_choice_of_the_caller_shows_in_the_provenance() {
     let rejection = Rejection::default();
     let compilers = [
         compiler(),
-        compiler().kernel(Kernel::Interleaved { taps: 5 }),
-        compiler().kernel(Kernel::ImportanceSampled { taps: 4 }),
+        compiler().estimator(Estimator::Interleaved { taps: 5 }),
+        compiler().estimator(Estimator::ImportanceSampled { taps: 4 }),
         compiler().rejection(Rejection { by_normal: true, ..rejection }),
         compiler().rejection(Rejection { rejected: Rejected::ReturnedToCentre, ..rejection }),
         compiler().output_format(OutputFormat::Rgba32Float),
@@ -181,15 +181,15 @@ fn a_kernel_with_taps_that_it_cannot_have_is_refused() {
     let skin = include_str!("in/pass/one_model/skin.ron");
     for (kernel, message) in [
         (
-            Kernel::Separable { taps: 16, rotated: false },
+            Estimator::Separable { taps: 16, rotated: false },
             "error: the kernel `Separable` cannot have 16 taps\n = help: give `Compiler::kernel` an odd number from 3 to 65\n",
         ),
         (
-            Kernel::Interleaved { taps: 0 },
+            Estimator::Interleaved { taps: 0 },
             "error: the kernel `Interleaved` cannot have 0 taps\n = help: give `Compiler::kernel` a whole number from 1 to 64\n",
         ),
     ] {
-        let compiler = Compiler::from_memory([("skin.ron", skin)]).kernel(kernel);
+        let compiler = Compiler::from_memory([("skin.ron", skin)]).estimator(kernel);
         let report = compiler.compile().expect_err("no such kernel");
         assert_eq!(report.render(false), message);
     }
@@ -201,9 +201,9 @@ fn the_curves_are_written_beside_the_rest() {
     let compilation = Compiler::new("materials").compile().unwrap_or_else(|report| panic!("{report}"));
     compilation.write_to(directory.path()).expect("the folder can be written to");
     let curves = std::fs::read(directory.path().join("subsurface.curves")).expect("the file is there");
-    assert_eq!(curves, compilation.profile_curves);
-    let [width, height] = compilation.curve_size.map(|extent| extent as usize);
+    assert_eq!(curves, compilation.parts.profile_curves());
+    let [width, height] = compilation.parts.curve_size().map(|extent| extent as usize);
     assert_eq!(curves.len(), 16 * width * height);
     use subsurface::presets::{CURVE_SIZE, PROFILE_CURVES};
-    assert_eq!((CURVE_SIZE, PROFILE_CURVES), (compilation.curve_size, curves.as_slice()));
+    assert_eq!((CURVE_SIZE, PROFILE_CURVES), (compilation.parts.curve_size(), curves.as_slice()));
 }

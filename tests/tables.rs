@@ -238,8 +238,8 @@ fn a_build_depends_on_its_tables() {
     };
     let (one, other) =
         (compile("r,r_reflectance\n0,0.1\n1,0.05\n"), compile("r,r_reflectance\n0,0.1\n1,0.06\n"));
-    assert!(one.provenance != other.provenance && one.profile_tables != other.profile_tables);
-    assert_eq!(one.wgsl.replace(&one.provenance, ""), other.wgsl.replace(&other.provenance, ""));
+    assert!(one.provenance != other.provenance && one.parts.profile_tables() != other.parts.profile_tables());
+    assert_eq!(one.wgsl().replace(&one.provenance, ""), other.wgsl().replace(&other.provenance, ""));
 }
 
 #[test]
@@ -247,17 +247,17 @@ fn a_set_of_tables_compiles_to_the_blessed_texts() {
     let compilation = Compiler::new("tests/in/pass/tabulated").without_gbuffer().compile();
     let compilation = compilation.unwrap_or_else(|report| panic!("{report}"));
     for (folder, text) in
-        [("wgsl", &compilation.wgsl), ("rust", &compilation.rust), ("manifest", &compilation.manifest)]
+        [("wgsl", &compilation.wgsl()), ("rust", &compilation.rust), ("manifest", &compilation.manifest)]
     {
         assert_blessed(folder, "tabulated", &text.replace(&compilation.provenance, "<sha256>"));
     }
     // Two surface albedos at the common radii 0, 0.25, 0.5, 1, 2, 3, 4, 9, and one at the points and 0.
-    assert_eq!(compilation.profile_tables.len(), 20 * (2 * 8 + 7));
+    assert_eq!(compilation.parts.profile_tables().len(), 20 * (2 * 8 + 7));
     let dir = tempfile::tempdir().unwrap();
     compilation.write_to(dir.path()).unwrap();
-    assert_eq!(fs::read(dir.path().join("subsurface.tables")).unwrap(), compilation.profile_tables);
+    assert_eq!(fs::read(dir.path().join("subsurface.tables")).unwrap(), compilation.parts.profile_tables());
     let without = Compiler::new("tests/in/pass/one_model").compile().unwrap();
-    assert!(without.profile_tables.is_empty() && !without.manifest.contains("profile_tables"));
+    assert!(without.parts.profile_tables().is_empty() && !without.manifest.contains("profile_tables"));
 }
 
 #[test]
@@ -265,19 +265,19 @@ fn a_kernel_has_the_profile_tables_that_its_wgsl_reads_or_is_none() {
     use subsurface::runtime::{KernelError, KernelKind, KernelParts, SubsurfaceKernel};
     let kernel = |compilation: &Compilation, profile_tables: &[u8]| {
         SubsurfaceKernel::new(KernelParts {
-            wgsl: compilation.wgsl.clone().into(),
-            material_table: compilation.material_table.clone().into(),
+            wgsl: compilation.wgsl().clone().into(),
+            material_table: compilation.parts.material_rows().clone().into(),
             material_names: compilation.material_names().into_iter().map(Into::into).collect(),
             profile_tables: profile_tables.to_vec().into(),
-            profile_curves: compilation.profile_curves.clone().into(),
-            curve_size: compilation.curve_size,
+            profile_curves: compilation.parts.profile_curves().clone().into(),
+            curve_size: compilation.parts.curve_size(),
             kind: KernelKind::Interleaved,
-            taps: compilation.kernel.taps(),
+            taps: compilation.estimator().taps(),
         })
     };
     let with = Compiler::new("tests/in/pass/tabulated").compile().unwrap();
     let without = Compiler::new("tests/in/pass/one_model").compile().unwrap();
-    let tables = with.profile_tables.as_slice();
+    let tables = with.parts.profile_tables().as_slice();
     assert_eq!(kernel(&with, tables).unwrap().profile_tables(), tables);
     assert!(kernel(&without, &[]).unwrap().profile_tables().is_empty());
     let missing = kernel(&with, &[]).unwrap_err();

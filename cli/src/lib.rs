@@ -11,7 +11,6 @@ pub mod command;
 pub mod draw;
 pub mod failure;
 pub mod kernel_bench;
-pub mod kernel_name;
 pub mod picture;
 pub mod plot;
 pub mod progress;

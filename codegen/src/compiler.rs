@@ -3,6 +3,7 @@
 mod compilation;
 mod kernel_module;
 mod parameter_table;
+mod rows;
 mod runtime_bindings;
 
 use std::path::{Path, PathBuf};
@@ -10,24 +11,22 @@ use std::path::{Path, PathBuf};
 use proc_macro2::TokenStream;
 use quote::quote;
 use sha2::{Digest, Sha256};
+use subsurface_kernel::{Estimator, KernelModule as ModuleParts, KernelParts, OutputFormat, Rejection};
 use subsurface_shaders::{KERNELS, LIBRARY, PASSES, PROFILES};
 
 use crate::bindings::{self, Paths, SetBindings};
 use crate::diagnostics::{Diagnostic, Report};
 use crate::emit::Choices;
-use crate::kernel::Kernel;
-use crate::layout::{array_bytes, bytes_of, structure};
 use crate::load::{Loaded, load_directory, load_memory};
 use crate::manifest::ManifestOf;
 use crate::material::MaterialSet;
 use crate::output::BuildError;
-use crate::output_format::OutputFormat;
 use crate::quality::{QualityReport, solve};
-use crate::rejection::Rejection;
 
 pub use compilation::Compilation;
 pub(crate) use compilation::{PROFILE_CURVES_FILE, PROFILE_TABLES_FILE};
 use kernel_module::KernelModule;
+use rows::Rows;
 pub use runtime_bindings::runtime_bindings;
 
 /// Name of the struct that is one row of the parameter table.
@@ -73,7 +72,7 @@ pub struct Compiler {
     runtime_path: String,
     gbuffer: bool,
     passes: Vec<Pass>,
-    kernel: Option<Kernel>,
+    estimator: Option<Estimator>,
     rejection: Option<Rejection>,
     output_format: OutputFormat,
 }
@@ -111,7 +110,7 @@ impl Compiler {
             runtime_path: "::subsurface_runtime".to_owned(),
             gbuffer: true,
             passes: Vec::new(),
-            kernel: None,
+            estimator: None,
             rejection: None,
             output_format: OutputFormat::default(),
         }
@@ -140,14 +139,14 @@ impl Compiler {
         self
     }
 
-    /// Generates this kernel, whatever the set's own file says; that, or else [`Kernel::default`], if not given.
+    /// Generates this estimator, whatever the set's own file says; that, or else [`Estimator::default`], if not given.
     #[must_use]
-    pub fn kernel(mut self, kernel: Kernel) -> Self {
-        self.kernel = Some(kernel);
+    pub fn estimator(mut self, estimator: Estimator) -> Self {
+        self.estimator = Some(estimator);
         self
     }
 
-    /// Which taps the kernel leaves out, whatever the set's own file says; that, or else [`Rejection::default`], if not
+    /// Which taps the estimator leaves out, whatever the set's own file says; that, or else [`Rejection::default`], if not
     /// given.
     #[must_use]
     pub fn rejection(mut self, rejection: Rejection) -> Self {
@@ -196,8 +195,8 @@ impl Compiler {
             }
         };
         let rejection = self.rejection.unwrap_or(set.rejection);
-        // A kernel that the caller names is not searched.
-        let request = set.quality.as_ref().filter(|_| self.kernel.is_none());
+        // An estimator that the caller names is not searched.
+        let request = set.quality.as_ref().filter(|_| self.estimator.is_none());
         let quality = match request.map(|request| solve(&set, rejection, request)).transpose() {
             Ok(quality) => quality,
             Err(error) => {
@@ -205,17 +204,17 @@ impl Compiler {
                 return Err(report);
             }
         };
-        let searched = quality.as_ref().map(|quality| quality.kernel);
+        let searched = quality.as_ref().map(|quality| quality.estimator);
         let choices = Choices {
-            kernel: self.kernel.or(searched).unwrap_or(set.kernel),
+            estimator: self.estimator.or(searched).unwrap_or(set.estimator),
             rejection,
             output_format: self.output_format,
         };
-        if let Some(expected) = choices.kernel.refused_taps() {
-            let (kind, taps) = (choices.kernel.kind_name(), choices.kernel.taps());
+        if let Some(expected) = choices.estimator.refused_taps() {
+            let (name, taps) = (choices.estimator.name(), choices.estimator.taps());
             report.push(
-                Diagnostic::error(format!("the kernel `{kind}` cannot have {taps} taps"))
-                    .help(format!("give `Compiler::kernel` {expected}")),
+                Diagnostic::error(format!("the estimator `{name}` cannot have {taps} taps"))
+                    .help(format!("give `Compiler::estimator` {expected}")),
             );
             return Err(report);
         }
@@ -223,7 +222,7 @@ impl Compiler {
         let header = header(&set, &choices, quality.as_ref(), &provenance);
         let generated =
             KernelModule::generate(&set, &choices, self.gbuffer, &self.passes, &header, &mut report);
-        let Some(KernelModule { linked, emitted, validated, reflection }) = generated else {
+        let Some(KernelModule { linked, emitted, validated, reflection, row_binding }) = generated else {
             return Err(report);
         };
         let module = &validated.module;
@@ -243,28 +242,48 @@ impl Compiler {
             );
             return Err(report);
         }
-        let named = |name: &str| {
-            module.types.iter().find(|(_, ty)| ty.name.as_deref() == Some(name)).map(|(handle, _)| handle)
+        let rows = match Rows::of(module, &linked.docs, ROW, &emitted.rows) {
+            Ok(rows) => rows,
+            Err(diagnostic) => {
+                report.push(*diagnostic);
+                return Err(report);
+            }
         };
-        let profile_tables =
-            named(KNOT).map(|knot| array_bytes(module, knot, &emitted.knots)).unwrap_or_default();
-        let Some((row_handle, row)) =
-            named(ROW).and_then(|handle| Some((handle, structure(module, &linked.docs, handle)?)))
-        else {
-            report.push(Diagnostic::error("the kernel has no parameter table").help(DEFECT));
-            return Err(report);
+        let knots = (!emitted.knots.is_empty()).then(|| Rows::of(module, &linked.docs, KNOT, &emitted.knots));
+        let knots = match knots.transpose() {
+            Ok(knots) => knots,
+            Err(diagnostic) => {
+                report.push(*diagnostic);
+                return Err(report);
+            }
+        };
+        let entry_points = reflection.entry_points.iter().map(|entry| entry.name.clone());
+        let mut parts_module =
+            ModuleParts::new(choices.estimator, linked.text.clone(), rows.structure.size, row_binding)
+                .with_entry_points(entry_points)
+                .with_output_format(choices.output_format, linked.output_format.clone());
+        if let Some(knots) = &knots {
+            parts_module = parts_module.with_profile_tables(knots.structure.size);
+        }
+        let curve_size = emitted.curves.size();
+        let names = set.materials.iter().map(|material| material.name.clone());
+        let mut builder = KernelParts::builder(parts_module)
+            .materials(names, rows.bytes, rows.structure.size)
+            .profile_curves(emitted.curves.bytes(), curve_size);
+        if let Some(knots) = knots {
+            builder = builder.profile_tables(knots.bytes);
+        }
+        let parts = match builder.build() {
+            Ok(parts) => parts,
+            Err(error) => {
+                report.push(Diagnostic::error(error.to_string()).help(DEFECT));
+                return Err(report);
+            }
         };
         let mut tokens = bindings::set_tokens(
             module,
-            &SetBindings {
-                set: &set,
-                rows: &emitted.rows,
-                provenance: &provenance,
-                kernel: choices.kernel,
-                curve_size: emitted.curves.size(),
-                has_tables: !profile_tables.is_empty(),
-            },
-            &row,
+            &SetBindings { set: &set, rows: &emitted.rows, provenance: &provenance, parts: &parts },
+            &rows.structure,
             &paths,
         );
         tokens.extend(quality.as_ref().map(bindings::quality_tokens));
@@ -279,25 +298,16 @@ impl Compiler {
                     set: &set,
                     choices: &choices,
                     quality: quality.as_ref(),
-                    curve_size: emitted.curves.size(),
-                    has_tables: !profile_tables.is_empty(),
+                    curve_size,
+                    has_tables: !parts.profile_tables().is_empty(),
                     provenance: &provenance,
                 },
                 module,
                 &reflection,
             ),
-            material_table: emitted
-                .rows
-                .iter()
-                .flat_map(|value| bytes_of(module, row_handle, value))
-                .collect(),
-            profile_tables,
-            profile_curves: emitted.curves.bytes(),
-            curve_size: emitted.curves.size(),
-            kernel: choices.kernel,
+            parts,
             rejection: choices.rejection,
             quality,
-            wgsl: linked.text,
             set,
             provenance,
             report,
@@ -387,9 +397,9 @@ const DEFECT: &str = "no material file is to blame: please report this as a defe
 fn header(set: &MaterialSet, choices: &Choices, quality: Option<&QualityReport>, provenance: &str) -> String {
     let mut header = format!(
         "// Generated by subsurface-codegen {} from material files. Change those instead.\n\
-         // Provenance: {provenance}\n//\n// Kernel: {}\n{}// Rejects: {}\n//\n// Materials by number:\n",
+         // Provenance: {provenance}\n//\n// Estimator: {}\n{}// Rejects: {}\n//\n// Materials by number:\n",
         env!("CARGO_PKG_VERSION"),
-        choices.kernel,
+        choices.estimator,
         quality.map(QualityReport::comment).unwrap_or_default(),
         choices.rejection,
     );

@@ -16,6 +16,8 @@ pub(crate) struct Glue {
     pub(crate) text: String,
     /// Ranges of `text` that spell a value of a material file.
     pub(crate) origins: Vec<(Range<usize>, Span)>,
+    /// The range of `text` that spells the format of the compute path's output.
+    pub(crate) output_format: Option<Range<usize>>,
 }
 
 /// A linked WGSL text that remembers where its parts came from.
@@ -24,6 +26,8 @@ pub(crate) struct Linked {
     pub(crate) text: String,
     /// Ranges of `text` that spell a value of a material file, sorted and disjoint.
     origins: Vec<(Range<usize>, Span)>,
+    /// The range of `text` that spells the format of the compute path's output.
+    pub(crate) output_format: Option<Range<usize>>,
     /// Doc comments of what was kept.
     pub(crate) docs: Docs,
     /// Names of the modules that contributed, in the order of the text, and where their part starts.
@@ -108,6 +112,7 @@ pub(crate) fn link(
     let mut linked = Linked {
         text: header.to_owned(),
         origins: Vec::new(),
+        output_format: None,
         docs: Docs::default(),
         modules: Vec::new(),
         module_of: BTreeMap::new(),
@@ -143,10 +148,15 @@ impl Linked {
         let start = item.text.as_ptr() as usize - glue.text.as_ptr() as usize;
         let end = start + item.text.len();
         let here = self.text.len();
+        let moved = |range: &Range<usize>| {
+            let is_inside = range.start >= start && range.end <= end;
+            is_inside.then(|| range.start - start + here..range.end - start + here)
+        };
         for (range, span) in &glue.origins {
-            if range.start >= start && range.end <= end {
-                self.origins.push((range.start - start + here..range.end - start + here, span.clone()));
-            }
+            self.origins.extend(moved(range).map(|range| (range, span.clone())));
+        }
+        if let Some(place) = glue.output_format.as_ref().and_then(moved) {
+            self.output_format = Some(place);
         }
     }
 }
@@ -186,7 +196,7 @@ mod tests {
 
     #[test]
     fn keeps_what_the_root_reaches_and_nothing_else() {
-        let glue = Glue { text: "fn root() { used(); }\n".to_owned(), origins: Vec::new() };
+        let glue = Glue { text: "fn root() { used(); }\n".to_owned(), ..Default::default() };
         let linked = link(LIBRARY, &glue, &["root"], "// head\n").expect("links");
         assert!(linked.text.starts_with("// head\n"));
         assert!(linked.text.contains("// About a.") && linked.text.contains("LIMIT = 1.0"));
@@ -200,7 +210,7 @@ mod tests {
 
     #[test]
     fn a_name_declared_twice_is_an_error() {
-        let glue = Glue { text: "const LIMIT = 2.0;".to_owned(), origins: Vec::new() };
+        let glue = Glue { text: "const LIMIT = 2.0;".to_owned(), ..Default::default() };
         let error = link(LIBRARY, &glue, &["LIMIT"], "").expect_err("LIMIT stands twice");
         assert_eq!(error.to_string(), "LIMIT is declared by the material set and by b");
     }
@@ -211,7 +221,11 @@ mod tests {
         let file = sources.add("m.ron", "value");
         let text = "fn dropped() {}\n\nconst KEPT = 42.0;\n";
         let at = text.find("42.0").expect("it is there");
-        let glue = Glue { text: text.to_owned(), origins: vec![(at..at + 4, Span::new(file, 0..5))] };
+        let glue = Glue {
+            text: text.to_owned(),
+            origins: vec![(at..at + 4, Span::new(file, 0..5))],
+            ..Default::default()
+        };
         let linked = link(&[], &glue, &["KEPT"], "// head\n").expect("links");
         let moved = linked.text.find("42.0").expect("it is there");
         assert_eq!(linked.origin(&(moved + 1..moved + 2)), Some(&Span::new(file, 0..5)));

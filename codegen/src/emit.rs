@@ -10,15 +10,15 @@ use crate::compose::Glue;
 use crate::curves::{CurvePlace, Curves, NoProfile};
 use crate::diagnostics::Diagnostic;
 use crate::identifier::screaming_case;
-use crate::kernel::Kernel;
 use crate::material::{Material, MaterialSet};
 use crate::model_kind::ModelKind;
-use crate::output_format::OutputFormat;
-use crate::rejection::{Rejected, Rejection};
 use crate::schema::rounded;
 use crate::source::Span;
 use crate::unrolled::{gaussian_sums, table_search};
 use crate::value::{Value, single};
+use subsurface_kernel::Estimator;
+use subsurface_kernel::OutputFormat;
+use subsurface_kernel::{Rejected, Rejection};
 
 /// The glue text of a set and the values of its table.
 #[derive(Debug)]
@@ -37,7 +37,7 @@ pub(crate) struct Emitted {
 /// What a set is compiled for, beside its materials.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Choices {
-    pub(crate) kernel: Kernel,
+    pub(crate) estimator: Estimator,
     pub(crate) rejection: Rejection,
     pub(crate) output_format: OutputFormat,
 }
@@ -74,7 +74,7 @@ pub(crate) fn emit(set: &MaterialSet, choices: &Choices) -> Result<Emitted, Emit
         let unknown = || EmitError::UnknownModel(material.profile.span.clone());
         kinds.push(ModelKind::of(&material.profile.model).ok_or_else(unknown)?);
     }
-    let with_edges = matches!(choices.kernel, Kernel::Separable { .. });
+    let with_edges = matches!(choices.estimator, Estimator::Separable { .. });
     let mut curves = Curves::bake(set, with_edges).map_err(EmitError::NoProfile)?;
     let models: Vec<ModelKind> = kinds.iter().copied().collect::<BTreeSet<_>>().into_iter().collect();
 
@@ -88,7 +88,7 @@ pub(crate) fn emit(set: &MaterialSet, choices: &Choices) -> Result<Emitted, Emit
 
     let mut glue = Glue::default();
     emit_constants(&mut glue, set, &models);
-    emit_choices(&mut glue.text, choices);
+    emit_choices(&mut glue, choices);
     glue.text.push_str(PROFILE_CURVES);
     emit_row(&mut glue.text, &models);
     emit_dispatch(&mut glue.text, &models);
@@ -129,9 +129,12 @@ fn row(
         ("first_edge", Value::U32(place.first_edge)),
         ("edge_reach", Value::scalar(place.edge_reach)),
     ]);
-    let mut fields = vec![("surface", surface), (kind.stem(), coefficients(material, shared))];
-    // Models are told apart by number; the coefficients of the others stay zero.
-    fields.sort_by_key(|(name, _)| *name != "surface");
+    let mut fields = vec![("surface", surface)];
+    let own = coefficients(material, shared);
+    // Models are told apart by number: the row has room for all of the set, and nothing to say of the others.
+    fields.extend(
+        models.iter().map(|&model| (model.stem(), if model == kind { own.clone() } else { Value::Zero })),
+    );
     Value::Struct(fields)
 }
 
@@ -237,8 +240,7 @@ fn number_of(entries: usize) -> u32 {
     u32::try_from(entries).expect("2048 models of 2^18 entries are fewer than 2^32")
 }
 
-/// How the shaders reach the knots: in a buffer, since a variable would be copied to every invocation. By this
-/// declaration the runtime's `SubsurfaceKernel::new` sees that a kernel needs tables.
+/// How the shaders reach the knots: in a buffer, since a variable would be copied to every invocation.
 const TABULATED_KNOTS: &str = "\
 /// The knots of all tables: table by table, by surface albedo, by radius.
 @group(0) @binding(1) var<storage, read> profile_tables: array<TabulatedKnot>;
@@ -323,8 +325,9 @@ fn emit_constants(glue: &mut Glue, set: &MaterialSet, models: &[ModelKind]) {
 }
 
 /// Constants that the passes branch on: a driver drops the branch that is not taken.
-fn emit_choices(text: &mut String, choices: &Choices) {
-    let Choices { kernel, rejection, output_format } = choices;
+fn emit_choices(glue: &mut Glue, choices: &Choices) {
+    let text = &mut glue.text;
+    let Choices { estimator, rejection, output_format } = choices;
     let returned = rejection.rejected == Rejected::ReturnedToCentre;
     for (docs, name, value) in [
         ("Taps on another material are left out.", "REJECT_BY_MATERIAL", rejection.by_material),
@@ -343,16 +346,16 @@ fn emit_choices(text: &mut String, choices: &Choices) {
             "RETURN_TO_CENTRE",
             returned,
         ),
-        ("Each pixel turns the two axes of the kernel.", "SEPARABLE_ROTATED", kernel.is_rotated()),
-        ("Stages read pixels that an earlier one packed.", "PACKS_PIXELS", kernel.packs_pixels()),
+        ("Each pixel turns the two axes of the kernel.", "SEPARABLE_ROTATED", estimator.is_rotated()),
+        ("Stages read pixels that an earlier one packed.", "PACKS_PIXELS", estimator.packs_pixels()),
     ] {
         let _ = writeln!(text, "/// {docs}\nconst {name}: bool = {value};\n");
     }
-    let format = output_format.wgsl();
-    let _ = writeln!(
-        text,
-        "/// What the compute path writes to.\nalias DiffusedTexture = texture_storage_2d<{format}, write>;\n"
-    );
+    text.push_str("/// What the compute path writes to.\nalias DiffusedTexture = texture_storage_2d<");
+    let start = text.len();
+    text.push_str(output_format.wgsl());
+    glue.output_format = Some(start..text.len());
+    text.push_str(", write>;\n\n");
 }
 
 /// The texture of `Curves`.

@@ -102,7 +102,7 @@ fn field_type(module: &Module, handle: Handle<Type>) -> Option<FieldType> {
     })
 }
 
-/// The bytes of `value` in the layout of the struct `handle`; fields that the value does not name are zero.
+/// The bytes of `value`, which [`check`](crate::value_mismatch::check) accepts, in the layout of the struct `handle`.
 pub(crate) fn bytes_of(module: &Module, handle: Handle<Type>, value: &Value) -> Vec<u8> {
     array_bytes(module, handle, std::slice::from_ref(value))
 }
@@ -124,6 +124,7 @@ fn encoded(module: &Module, layout: &Structure, value: &Value) -> Vec<u8> {
                 components.iter().flat_map(|component| component.to_le_bytes()).collect()
             }
             (Value::Struct(_), FieldType::Struct(inner)) => bytes_of(module, *inner, value),
+            (Value::Zero, _) => continue,
             _ => unreachable!("the emitter writes {} with the type it declares", field.name),
         };
         let start = field.offset as usize;

@@ -2,7 +2,7 @@
 //!
 //! The central type is [`Compiler`]: a directory of materials in, a [`Compilation`] out (WGSL, Rust, a JSON manifest, the
 //! bytes of the parameter table and the curves of the profiles), or a [`Report`] with every error of every file. Which
-//! [`Kernel`] diffuses is a choice of the set, or of the caller.
+//! [`Estimator`] diffuses is a choice of the set, or of the caller.
 //!
 //! In a `build.rs`:
 //!
@@ -26,7 +26,6 @@ mod emit;
 mod excerpt;
 mod identifier;
 mod item;
-mod kernel;
 mod layout;
 mod lint;
 pub mod load;
@@ -34,10 +33,8 @@ mod manifest;
 pub mod material;
 mod model_kind;
 mod output;
-mod output_format;
 mod quality;
 mod reflect;
-mod rejection;
 mod resolve;
 mod schema;
 pub mod source;
@@ -47,17 +44,16 @@ mod table;
 mod unrolled;
 mod validate;
 mod value;
+mod value_mismatch;
 
 pub use compiler::{Compilation, Compiler, Pass, runtime_bindings};
 pub use diagnostics::{Diagnostic, Report, Severity};
-pub use kernel::Kernel;
 pub use load::{
     Checked, Loaded, LoadedProfile, LoadedTable, check_paths, load_directory, load_memory, load_profile,
     load_profile_file, load_radial_table,
 };
 pub use material::{Material, MaterialSet, ResolvedProfile};
 pub use output::BuildError;
-pub use output_format::OutputFormat;
 pub use quality::{PictureReport, Quality, QualityReport, QualityRequest, Tier, TierReport};
-pub use rejection::{Rejected, Rejection};
 pub use source::{FileId, SourceMap, Span, Spanned};
+pub use subsurface_kernel::{Estimator, KernelParts, OutputFormat, Rejected, Rejection};

@@ -81,9 +81,9 @@ pub fn load_memory<P: AsRef<Path>, B: AsRef<[u8]>>(files: impl IntoIterator<Item
 }
 
 fn load(mut reader: Reader, dir: &Path) -> Loaded {
-    let Resolution { materials, kernel, rejection, quality, .. } = load_set(&mut reader, dir);
+    let Resolution { materials, estimator, rejection, quality, .. } = load_set(&mut reader, dir);
     let complete = !reader.report.has_errors();
-    let set = complete.then_some(MaterialSet { materials, kernel, rejection, quality });
+    let set = complete.then_some(MaterialSet { materials, estimator, rejection, quality });
     let (report, files_read, directories_read) = reader.finish();
     Loaded { set, report, files_read, directories_read }
 }

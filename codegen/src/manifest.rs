@@ -89,12 +89,12 @@ pub(crate) fn manifest(of: &ManifestOf<'_>, module: &Module, reflection: &Reflec
             json!({ "name": structure.name, "size": structure.size, "fields": fields })
         })
         .collect();
-    let Choices { kernel, rejection, output_format } = of.choices;
+    let Choices { estimator, rejection, output_format } = of.choices;
     let mut manifest = json!({
         "version": MANIFEST_VERSION,
         "provenance": of.provenance,
         "wgsl": "subsurface.wgsl",
-        "kernel": { "kind": kernel.kind_name(), "taps": kernel.taps(), "rotated": kernel.is_rotated() },
+        "kernel": { "kind": estimator.name(), "taps": estimator.taps(), "rotated": estimator.is_rotated() },
         "rejection": {
             "by_material": rejection.by_material,
             "by_distance": rejection.by_distance,

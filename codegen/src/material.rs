@@ -4,10 +4,10 @@ use std::collections::BTreeMap;
 
 use subsurface_profile::Model;
 
-use crate::kernel::Kernel;
 use crate::quality::QualityRequest;
-use crate::rejection::Rejection;
 use crate::source::Span;
+use subsurface_kernel::Estimator;
+use subsurface_kernel::Rejection;
 
 /// Everything a kernel needs to know of one material. All values are checked: finite, in range, representable in
 /// `f32`.
@@ -55,11 +55,11 @@ pub struct ResolvedProfile {
 pub struct MaterialSet {
     /// The materials, sorted by name; an index in this list is the material's id on the GPU.
     pub materials: Vec<Material>,
-    /// The kernel that the set's own file asks for, or the default one.
-    pub kernel: Kernel,
-    /// Which taps the kernel leaves out, as the set's own file says, or the default.
+    /// The estimator that the set's own file asks for, or the default one.
+    pub estimator: Estimator,
+    /// Which taps the estimator leaves out, as the set's own file says, or the default.
     pub rejection: Rejection,
-    /// What the set's own file asks of the kernel in place of a number of taps.
+    /// What the set's own file asks of the estimator in place of a number of taps.
     pub quality: Option<QualityRequest>,
 }
 

@@ -9,16 +9,16 @@ use subsurface_profile::{Channel, Length, Medium, Model};
 
 use crate::diagnostics::Diagnostic;
 use crate::identifier::{self, camel_case, screaming_case};
-use crate::kernel::Kernel;
 use crate::lint;
 use crate::material::{Material, ResolvedProfile};
 use crate::quality::QualityRequest;
-use crate::rejection::Rejection;
 use crate::schema::{
     Given, LengthGiven, MaterialFile, ProfileExpression, ProfileFile, SET, SetFile, Triple, rounded,
 };
 use crate::source::{FileId, Span, Spanned};
 use crate::suggestion::{closest, list, shortened};
+use subsurface_kernel::Estimator;
+use subsurface_kernel::Rejection;
 
 pub(crate) use chain::{ChainEnd, chain, unknown_profile};
 use chain::{check_aliases, profile_names};
@@ -55,7 +55,7 @@ pub(crate) struct Resolution {
     /// The materials without errors, sorted by name.
     pub(crate) materials: Vec<Material>,
     /// What the set's own file chooses, or the defaults.
-    pub(crate) kernel: Kernel,
+    pub(crate) estimator: Estimator,
     pub(crate) rejection: Rejection,
     pub(crate) quality: Option<QualityRequest>,
     /// Whether there is a file for a material, good or bad.
@@ -123,7 +123,7 @@ impl Resolution {
     /// Takes what the set's own file chooses; reports a second such file.
     fn choose(&mut self, sets: &[SetFile]) {
         let Some((first, others)) = sets.split_first() else { return };
-        self.kernel = first.kernel.value().copied().unwrap_or_default();
+        self.estimator = first.estimator.value().copied().unwrap_or_default();
         self.rejection = first.rejection.value().copied().unwrap_or_default();
         self.quality = first.quality.value().cloned();
         for other in others {

@@ -97,7 +97,11 @@ mod tests {
 
     fn linked(text: &str, spelled: &str, span: Span) -> Linked {
         let at = text.find(spelled).expect("the text spells the value");
-        let glue = Glue { text: text.to_owned(), origins: vec![(at..at + spelled.len(), span)] };
+        let glue = Glue {
+            text: text.to_owned(),
+            origins: vec![(at..at + spelled.len(), span)],
+            ..Default::default()
+        };
         link(&[], &glue, &["main"], "// head\n").expect("links")
     }
 
@@ -131,7 +135,7 @@ mod tests {
         let mut report = Report::default();
         let glue = Glue {
             text: "@compute @workgroup_size(1)\nfn main() {\n    let x: f64 = 1.5lf;\n}\n".to_owned(),
-            origins: Vec::new(),
+            ..Default::default()
         };
         let linked = link(&[], &glue, &["main"], "").expect("links");
         assert!(validate(&linked, "subsurface.wgsl", &mut report).is_none());

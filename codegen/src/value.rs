@@ -9,6 +9,8 @@ pub(crate) enum Value {
     Vector(Vec<f32>),
     /// Fields of a struct by name.
     Struct(Vec<(&'static str, Value)>),
+    /// Zero throughout, whatever the type: a part of a row that its material does not use.
+    Zero,
 }
 
 impl Value {

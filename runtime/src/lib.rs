@@ -1,7 +1,7 @@
 //! Thin wgpu passes for subsurface scattering: shadow → G-buffer → subsurface → composite.
 //!
 //! The central type is [`SubsurfacePass`]: give it three textures of your frame (irradiance, surface albedo with
-//! material number, depth) and a [`SubsurfaceView`], and it gives one texture back. A [`SubsurfaceKernel`] says which
+//! material number, depth) and a [`SubsurfaceView`], and it gives one texture back. [`KernelParts`] say which
 //! materials it knows; `subsurface-codegen` generates one from RON. [`Renderer`] orders all four passes for those who
 //! want a whole picture.
 //!
@@ -18,8 +18,7 @@ mod bindings;
 mod camera;
 mod error;
 mod geometry;
-mod kernel;
-mod kernel_kind;
+mod kernel_format;
 mod light;
 mod material_table;
 pub mod pass;
@@ -35,15 +34,17 @@ pub use bindings::kernel::GBufferVertex as Vertex;
 pub use camera::{Bounds, Camera};
 pub use error::{ResizeError, SizeError, TexelsError};
 pub use geometry::{Geometry, Object, SurfaceDescriptor, TexturePixels};
-pub use kernel::{KernelError, KernelParts, SubsurfaceKernel};
-pub use kernel_kind::KernelKind;
+pub use kernel_format::texture_format;
 pub use light::{DirectionalLight, LIGHT_CAPACITY};
 pub use pass::composite::{CompositeInputs, CompositePass, CompositeSettings};
 pub use pass::distance::DistancePass;
 pub use pass::gbuffer::{GBufferPass, GBufferView};
 pub use pass::shadow::ShadowPass;
-pub use pass::subsurface::{DebugView, Path, PathError, SubsurfaceInputs, SubsurfacePass};
+pub use pass::subsurface::{Path, PathError, SubsurfaceInputs, SubsurfacePass};
 pub use readback::{Readback, ReadbackError};
 pub use renderer::{Frame, Renderer};
+pub use subsurface_kernel::{
+    DebugView, Estimator, EstimatorError, KernelModule, KernelParts, KernelPartsBuilder, OutputFormat, PartsError, RowBinding,
+};
 pub use target::{Extent, GBuffer, TRANSLUCENT_STENCIL, Target};
 pub use view::SubsurfaceView;

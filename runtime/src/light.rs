@@ -6,7 +6,7 @@ use crate::bindings::kernel;
 use crate::camera::{Bounds, upright};
 
 /// Directional lights that one frame can hold.
-pub const LIGHT_CAPACITY: usize = 4;
+pub const LIGHT_CAPACITY: usize = subsurface_kernel::constants::LIGHT_CAPACITY as usize;
 
 /// Radius of the shadow filter, mm: the penumbra of a large lamp behind a nose.
 const SHADOW_RADIUS_MM: f32 = 1.0;

@@ -3,10 +3,8 @@
 
 use wgpu::util::DeviceExt as _;
 
-use crate::kernel::SubsurfaceKernel;
-
-/// Bytes of a texel of the curves.
-const CURVE_TEXEL: u32 = 16;
+use subsurface_kernel::constants::CURVE_TEXEL_BYTES;
+use subsurface_kernel::{KernelParts, RowBinding};
 
 /// Binding of the curves.
 const CURVES_BINDING: u32 = 2;
@@ -37,7 +35,7 @@ struct Table<'a> {
 }
 
 impl MaterialTable {
-    pub(crate) fn new(device: &wgpu::Device, kernel: &SubsurfaceKernel) -> Self {
+    pub(crate) fn new(device: &wgpu::Device, kernel: &KernelParts) -> Self {
         let visibility = wgpu::ShaderStages::FRAGMENT.union(wgpu::ShaderStages::COMPUTE);
         let tables = tables(kernel);
         let mut layout_entries: Vec<_> = (0..)
@@ -89,7 +87,7 @@ impl MaterialTable {
         let Some(PendingCurves { texture, texels }) = self.pending.take() else { return };
         let layout = wgpu::TexelCopyBufferLayout {
             offset: 0,
-            bytes_per_row: Some(texture.width() * CURVE_TEXEL),
+            bytes_per_row: Some(texture.width() * CURVE_TEXEL_BYTES as u32),
             rows_per_image: None,
         };
         queue.write_texture(texture.as_image_copy(), &texels, layout, texture.size());
@@ -97,14 +95,13 @@ impl MaterialTable {
 }
 
 /// The buffers of the group, by binding.
-fn tables(kernel: &SubsurfaceKernel) -> Vec<Table<'_>> {
-    let contents = kernel.material_table();
+fn tables(kernel: &KernelParts) -> Vec<Table<'_>> {
+    let contents = kernel.material_rows();
     let storage = wgpu::BufferBindingType::Storage { read_only: true };
-    let (ty, least) = if kernel.has_uniform_material_table() {
+    let (ty, least) = match kernel.module().row_binding() {
         // The array in the WGSL has a length, so all of it must be bound.
-        (wgpu::BufferBindingType::Uniform, contents.len())
-    } else {
-        (storage, kernel.material_stride())
+        RowBinding::Uniform => (wgpu::BufferBindingType::Uniform, contents.len()),
+        RowBinding::Storage => (storage, kernel.module().row_stride() as usize),
     };
     let mut tables = vec![Table { label: "MaterialTable buffer", contents, least, ty }];
     let contents = kernel.profile_tables();
@@ -130,8 +127,8 @@ impl Table<'_> {
     }
 }
 
-fn curves(device: &wgpu::Device, kernel: &SubsurfaceKernel) -> PendingCurves {
-    let (texels, [width, height]) = kernel.profile_curves();
+fn curves(device: &wgpu::Device, kernel: &KernelParts) -> PendingCurves {
+    let (texels, [width, height]) = (kernel.profile_curves(), kernel.curve_size());
     let texture = device.create_texture(&wgpu::TextureDescriptor {
         label: Some("MaterialTable curves"),
         size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
@@ -143,4 +140,12 @@ fn curves(device: &wgpu::Device, kernel: &SubsurfaceKernel) -> PendingCurves {
         view_formats: &[],
     });
     PendingCurves { texture, texels: texels.to_vec() }
+}
+
+/// The module of a kernel on the device.
+pub(crate) fn shader_module(device: &wgpu::Device, kernel: &KernelParts) -> wgpu::ShaderModule {
+    device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label: Some("KernelParts module"),
+        source: wgpu::ShaderSource::Wgsl(kernel.module().wgsl().into()),
+    })
 }

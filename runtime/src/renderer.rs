@@ -3,7 +3,6 @@
 use crate::camera::{Bounds, Camera};
 use crate::error::{ResizeError, TexelsError};
 use crate::geometry::{Geometry, Object, SurfaceDescriptor};
-use crate::kernel::SubsurfaceKernel;
 use crate::light::DirectionalLight;
 use crate::pass::composite::{CompositeInputs, CompositePass, CompositeSettings};
 use crate::pass::gbuffer::{GBufferPass, GBufferView};
@@ -11,6 +10,7 @@ use crate::pass::shadow::ShadowPass;
 use crate::pass::subsurface::{SubsurfaceInputs, SubsurfacePass};
 use crate::target::{Extent, GBuffer, Target};
 use crate::view::SubsurfaceView;
+use subsurface_kernel::KernelParts;
 
 /// What one frame shows.
 #[derive(Clone, Copy, Debug)]
@@ -61,7 +61,7 @@ pub struct Renderer {
 
 impl Renderer {
     /// All that does not depend on the frame's size; `format` is that of the picture.
-    pub fn new(device: &wgpu::Device, kernel: &SubsurfaceKernel, format: wgpu::TextureFormat) -> Self {
+    pub fn new(device: &wgpu::Device, kernel: &KernelParts, format: wgpu::TextureFormat) -> Self {
         let shadow = ShadowPass::new(device);
         let gbuffer = GBufferPass::new(device, kernel, &shadow);
         let stencil = Some(GBuffer::DEPTH_STENCIL_FORMAT);

@@ -7,7 +7,7 @@
 mod gpu;
 
 use gpu::Gpu;
-use subsurface_codegen::{Compilation, Compiler, Kernel, OutputFormat, PictureReport};
+use subsurface_codegen::{Compilation, Compiler, Estimator, OutputFormat, PictureReport};
 use subsurface_profile::{Channel, EdgeSpread, Medium, Model, RadialProfile};
 use subsurface_runtime::{Extent, SubsurfaceInputs, SubsurfacePass, SubsurfaceView, wgpu};
 
@@ -150,7 +150,7 @@ fn stated(compilation: &Compilation, name: &str, mean: f64) -> PictureReport {
     found.unwrap_or_else(|| panic!("no {name} at {mean} pixels")).clone()
 }
 
-fn assert_near(what: &str, kernel: Kernel, drawn: f64, stated: f64) {
+fn assert_near(what: &str, kernel: Estimator, drawn: f64, stated: f64) {
     let (share, least) = TOLERANCE;
     assert!(
         (drawn - stated).abs() <= (share * stated).max(least),
@@ -185,7 +185,7 @@ fn a_step_edge_has_the_error_that_is_stated() {
             .map(|phase| Drawn::new(&gpu, &compilation, PICTURES[0], mean, 126, centre(phase)))
             .collect();
         let drawn = error(&pictures, [reach, PERIOD / 2], |x, _| exact[(x + reach) as usize]);
-        assert_near("step edge", compilation.kernel, drawn, stated(&compilation, "step edge", mean).error);
+        assert_near("step edge", compilation.estimator(), drawn, stated(&compilation, "step edge", mean).error);
     }
 }
 
@@ -206,7 +206,7 @@ fn small_pictures_have_the_errors_that_are_stated() {
                 .collect();
             let drawn = error(&pictures, [reach, across], |x, y| exact.at(x, y));
             let what = picture.name;
-            assert_near(what, compilation.kernel, drawn, stated(compilation, what, mean).error);
+            assert_near(what, compilation.estimator(), drawn, stated(compilation, what, mean).error);
         }
     }
 }

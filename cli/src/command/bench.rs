@@ -11,7 +11,6 @@ use crate::failure::Failure;
 use crate::kernel_bench::{
     self, Case, Contender, KernelContender, Options, Report, SceneCases, Subject, YARDSTICK, figure, table,
 };
-use crate::kernel_name::KernelName;
 use crate::picture::file;
 use crate::plot::FigureFile;
 use crate::say;
@@ -19,7 +18,7 @@ use crate::scene::camera::{Size, Triple};
 use clap::{Args, Parser, Subcommand, value_parser};
 use std::ffi::OsString;
 use std::path::PathBuf;
-use subsurface_codegen::{Compilation, Kernel};
+use subsurface_codegen::{Compilation, Estimator};
 use subsurface_runtime::Path;
 
 /// Measure kernels: errors and times side by side.
@@ -66,9 +65,9 @@ pub struct KernelsArguments {
     /// several times.
     #[arg(long = "profile", value_name = "STEM")]
     pub profiles: Vec<String>,
-    /// Kernel and taps, as in `subsurface render --kernel`. May be given several times; by default 14 of them.
+    /// Estimator and taps, as in `subsurface render --kernel`. May be given several times; by default 14 of them.
     #[arg(long = "kernel", value_name = "NAME[:TAPS]", value_parser = contender)]
-    pub kernels: Vec<Kernel>,
+    pub kernels: Vec<Estimator>,
     /// What is drawn.
     #[command(flatten)]
     pub mesh: MeshArguments,
@@ -127,10 +126,10 @@ const FOOTPRINTS: [f64; 3] = [1.5, 5.0, 15.0];
 /// A point of the bust where the key light's shadow crosses the cheek (m).
 const CHEEK: [f32; 3] = [0.0, 0.0, 0.09];
 
-fn contender(text: &str) -> Result<Kernel, String> {
-    match text.parse::<KernelName>()?.kernel()? {
-        Kernel::Dense => Err("dense is what the others are held against, and always runs".into()),
-        kernel => Ok(kernel),
+fn contender(text: &str) -> Result<Estimator, String> {
+    match super::kernel::estimator(text)? {
+        Estimator::Dense => Err("dense is what the others are held against, and always runs".into()),
+        estimator => Ok(estimator),
     }
 }
 
@@ -208,11 +207,11 @@ pub fn run_kernels(arguments: &KernelsArguments, more: Vec<Box<dyn Contender>>) 
 }
 
 /// Our kernels, the yardstick first.
-fn ours(chosen: &[Kernel]) -> impl Iterator<Item = Box<dyn Contender>> {
+fn ours(chosen: &[Estimator]) -> impl Iterator<Item = Box<dyn Contender>> {
     let mut kernels = if chosen.is_empty() { KernelContender::all() } else { chosen.to_vec() };
     kernels.retain(|kernel| *kernel != YARDSTICK);
     kernels.insert(0, YARDSTICK);
-    kernels.into_iter().map(|kernel| -> Box<dyn Contender> { Box::new(KernelContender { kernel }) })
+    kernels.into_iter().map(|kernel| -> Box<dyn Contender> { Box::new(KernelContender { estimator: kernel }) })
 }
 
 /// The inputs, then the scene at its footprints.

@@ -24,7 +24,7 @@ pub struct BuildArguments {
 pub fn run(arguments: &BuildArguments) -> Result<(), Failure> {
     let compilation = material_set::compile(&arguments.materials)?;
     compilation.write_to(&arguments.out).map_err(|error| Failure::reported(error.to_string()))?;
-    let tables = (!compilation.profile_tables.is_empty()).then_some("tables");
+    let tables = (!compilation.parts.profile_tables().is_empty()).then_some("tables");
     for extension in ["wgsl", "rs", "json"].into_iter().chain(tables) {
         say!("{}", arguments.out.join("subsurface").with_extension(extension).display());
     }

@@ -104,7 +104,7 @@ pub fn run(arguments: &ContactSheetArguments) -> Result<(), Failure> {
         progress.inc(1);
     }
     progress.finish_and_clear();
-    let title = format!("{} / {}", arguments.material, materials.kernel);
+    let title = format!("{} / {}", arguments.material, materials.estimator());
     if let Some(sheet) = compose(&title, &tiles, COLUMNS) {
         write_png(&arguments.out, &sheet)?;
         say!("{}", arguments.out.display());

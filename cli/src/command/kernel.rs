@@ -3,20 +3,21 @@
 use super::material_set;
 use crate::draw::LARGEST_TAPS;
 use crate::failure::Failure;
-use crate::kernel_name::KernelName;
+use crate::suggestion::suggest;
 use clap::{Args, ValueEnum, value_parser};
-use subsurface_codegen::{Compilation, Compiler, Kernel};
+use subsurface_codegen::{Compilation, Compiler, Estimator};
+use subsurface_runtime::EstimatorError;
 use subsurface_runtime::Path;
 
 /// Which kernel diffuses, and how.
 #[derive(Clone, Copy, Debug, Args)]
 pub struct KernelArguments {
-    /// Kernel, with its number of taps: interleaved[:1…64], importance-sampled[:1…4096], separable[:3…65, odd],
+    /// Estimator, with its number of taps: interleaved[:1…64], importance-sampled[:1…4096], separable[:3…65, odd],
     /// separable-rotated[:3…65, odd] or dense; by default what the material set says.
     ///
     /// Without a number: 4 taps for interleaved, 17 for the others; dense reads every pixel in reach.
-    #[arg(long, value_name = "NAME[:TAPS]", value_parser = kernel)]
-    pub kernel: Option<Kernel>,
+    #[arg(long, value_name = "NAME[:TAPS]", value_parser = estimator)]
+    pub kernel: Option<Estimator>,
     /// Taps per pixel, instead of the kernel's own number.
     #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..=i64::from(LARGEST_TAPS)))]
     pub taps: Option<u32>,
@@ -43,8 +44,15 @@ impl From<PathName> for Path {
     }
 }
 
-fn kernel(text: &str) -> Result<Kernel, String> {
-    text.parse::<KernelName>()?.kernel()
+/// An estimator as people write it, `interleaved:8`; a misspelt name gets a suggestion.
+pub(super) fn estimator(text: &str) -> Result<Estimator, String> {
+    text.parse().map_err(|error| match error {
+        EstimatorError::UnknownName { name } => {
+            let names = Estimator::ALL.map(|estimator| estimator.command_name().to_owned());
+            format!("no kernel is called `{name}`; {}", suggest(&name, &names))
+        }
+        other => other.to_string(),
+    })
 }
 
 impl KernelArguments {
@@ -52,14 +60,14 @@ impl KernelArguments {
     ///
     /// Taps go into the module's header with the kernel, so a number alone means compiling again with the set's own.
     pub(super) fn compile(&self, compiler: &Compiler) -> Result<Compilation, Failure> {
-        let with = |kernel| material_set::finish(compiler.clone().kernel(kernel).compile());
+        let with = |estimator| material_set::finish(compiler.clone().estimator(estimator).compile());
         match (self.kernel, self.taps) {
-            (Some(kernel), None) => with(kernel),
-            (Some(kernel), Some(taps)) => with(retapped(kernel, taps)?),
+            (Some(estimator), None) => with(estimator),
+            (Some(estimator), Some(taps)) => with(retapped(estimator, taps)?),
             (None, None) => material_set::finish(compiler.compile()),
             (None, Some(taps)) => {
                 let own = compiler.compile().map_err(|report| material_set::failure(&report))?;
-                with(retapped(own.kernel, taps)?)
+                with(retapped(own.estimator(), taps)?)
             }
         }
     }
@@ -70,11 +78,26 @@ impl KernelArguments {
     }
 }
 
-/// The kernel with another number of taps.
-fn retapped(kernel: Kernel, taps: u32) -> Result<Kernel, Failure> {
-    let refused = |reason: String| {
-        Failure::new(format!("--taps {taps}: {reason}"), "choose another number, or another --kernel")
-    };
-    let name = KernelName::of(kernel).ok_or_else(|| refused(format!("{kernel} has its own number")))?;
-    KernelName { taps: Some(taps), ..name }.kernel().map_err(refused)
+/// The estimator with another number of taps.
+fn retapped(estimator: Estimator, taps: u32) -> Result<Estimator, Failure> {
+    estimator.checked_taps(taps).map_err(|error| {
+        Failure::new(format!("--taps {taps}: {error}"), "choose another number, or another --kernel")
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::estimator;
+
+    #[test]
+    fn a_misspelt_kernel_says_what_is_meant() {
+        for (text, says) in [
+            ("interleafed", "did you mean `interleaved`?"),
+            ("gauss", "there are: interleaved, importance-sampled"),
+            ("separable:16", "an odd number from 3 to 65"),
+        ] {
+            let error = estimator(text).err().unwrap_or_default();
+            assert!(error.contains(says), "{text}: {error}");
+        }
+    }
 }

@@ -5,7 +5,7 @@ use subsurface_runtime::{Path, SubsurfaceView, wgpu};
 
 use super::device::Device;
 use super::uploaded::{Precision, Uploaded};
-use super::{beyond_device, kernel, subsurface_pass};
+use super::{beyond_device, subsurface_pass};
 use crate::failure::Failure;
 use crate::picture::LinearPicture;
 use crate::scene::camera::Size;
@@ -59,11 +59,10 @@ pub fn diffuse(
     frame_index: u32,
 ) -> Result<LinearPicture, Failure> {
     let device = Device::open()?;
-    let kernel = kernel(materials)?;
     device.checked(|| {
         let uploaded = Uploaded::new(&device, buffers, materials, Precision::Single)?;
         let format = wgpu::TextureFormat::Rgba32Float;
-        let mut pass = subsurface_pass(&device, &kernel, format, None, path)?;
+        let mut pass = subsurface_pass(&device, &materials.parts, format, None, path)?;
         pass.resize(&device.device, uploaded.size, &uploaded.inputs())
             .map_err(|error| beyond_device(&error))?;
         let view = scale.view(buffers.size.height).with_frame_index(frame_index);

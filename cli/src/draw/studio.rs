@@ -10,7 +10,7 @@ use subsurface_runtime::{
 };
 
 use super::device::Device;
-use super::{beyond_device, kernel, subsurface_pass};
+use super::{beyond_device, subsurface_pass};
 use crate::failure::Failure;
 use crate::picture::{DisplayPicture, LinearPicture};
 use crate::scene::camera::{Camera, Light, Size};
@@ -88,12 +88,11 @@ impl Studio {
     /// Opens a device and makes the pipelines; `path` is the subsurface pass's, by default what the device has.
     pub fn open(materials: &Compilation, path: Option<Path>) -> Result<Self, Failure> {
         let device = Device::open()?;
-        let kernel = kernel(materials)?;
         let (renderer, linear) = device.checked(|| {
-            let mut renderer = Renderer::new(&device.device, &kernel, DISPLAY_FORMAT);
+            let mut renderer = Renderer::new(&device.device, &materials.parts, DISPLAY_FORMAT);
             if path.is_some() {
                 let (format, stencil) = (GBuffer::COLOUR_FORMAT, Some(GBuffer::DEPTH_STENCIL_FORMAT));
-                renderer.subsurface = subsurface_pass(&device, &kernel, format, stencil, path)?;
+                renderer.subsurface = subsurface_pass(&device, &materials.parts, format, stencil, path)?;
             }
             Ok((renderer, CompositePass::new(&device.device, LINEAR_FORMAT)))
         })?;

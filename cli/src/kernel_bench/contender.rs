@@ -4,10 +4,9 @@ use super::case::Case;
 use super::goal::Goal;
 use super::subject::Subject;
 use crate::draw::device::Device;
-use crate::draw::{Uploaded, beyond_device, kernel, subsurface_pass};
+use crate::draw::{Uploaded, beyond_device, subsurface_pass};
 use crate::failure::Failure;
-use crate::kernel_name::KernelName;
-use subsurface_codegen::{Compilation, Kernel, OutputFormat};
+use subsurface_codegen::{Compilation, Estimator, OutputFormat};
 use subsurface_runtime::{Path, SubsurfacePass, wgpu};
 
 /// What a contender is given.
@@ -68,42 +67,41 @@ pub trait Run {
 /// One of our kernels.
 #[derive(Clone, Copy, Debug)]
 pub struct KernelContender {
-    /// The kernel.
-    pub kernel: Kernel,
+    /// Its estimator.
+    pub estimator: Estimator,
 }
 
 impl KernelContender {
     /// The kernels and taps that are compared when none are chosen, the yardstick first.
-    pub fn all() -> Vec<Kernel> {
+    pub fn all() -> Vec<Estimator> {
         let mut all = vec![super::YARDSTICK];
-        all.extend([9, 33, 65].map(|taps| Kernel::ImportanceSampled { taps }));
-        all.extend([1, 2, 3, 4, 6, 8, 16].map(|taps| Kernel::Interleaved { taps }));
-        all.extend([11, 17, 25].map(|taps| Kernel::Separable { taps, rotated: false }));
+        all.extend([9, 33, 65].map(|taps| Estimator::ImportanceSampled { taps }));
+        all.extend([1, 2, 3, 4, 6, 8, 16].map(|taps| Estimator::Interleaved { taps }));
+        all.extend([11, 17, 25].map(|taps| Estimator::Separable { taps, rotated: false }));
         all
     }
 }
 
 impl Contender for KernelContender {
     fn family(&self) -> String {
-        KernelName::of(self.kernel)
-            .map_or_else(|| self.kernel.kind_name().to_owned(), |name| name.family.name().to_owned())
+        self.estimator.command_name().to_owned()
     }
 
     fn taps(&self) -> u32 {
-        self.kernel.taps()
+        self.estimator.taps()
     }
 
     fn goal(&self) -> Option<Goal> {
-        match self.kernel {
-            Kernel::ImportanceSampled { taps: 17 | 33 } => Some(Goal::Faster),
-            Kernel::Separable { taps: 17, .. } => Some(Goal::FasterAndCloser),
+        match self.estimator {
+            Estimator::ImportanceSampled { taps: 17 | 33 } => Some(Goal::Faster),
+            Estimator::Separable { taps: 17, .. } => Some(Goal::FasterAndCloser),
             _ => None,
         }
     }
 
     fn enter(&self, stage: &Stage<'_>) -> Result<Entry, Failure> {
         let format = OutputFormat::Rgba16Float;
-        let materials = stage.subject.compile(self.kernel, format)?;
+        let materials = stage.subject.compile(self.estimator, format)?;
         Ok(Entry::Runs(Box::new(kernel_run(stage, &materials, format)?)))
     }
 }
@@ -114,12 +112,11 @@ pub(super) fn kernel_run(
     materials: &Compilation,
     format: OutputFormat,
 ) -> Result<impl Run + use<>, Failure> {
-    let kernel = kernel(materials)?;
     let format = match format {
         OutputFormat::Rgba32Float => wgpu::TextureFormat::Rgba32Float,
         _ => wgpu::TextureFormat::Rgba16Float,
     };
-    let mut pass = subsurface_pass(stage.device, &kernel, format, None, stage.path)?;
+    let mut pass = subsurface_pass(stage.device, &materials.parts, format, None, stage.path)?;
     let textures = stage.textures;
     pass.resize(&stage.device.device, textures.size, &textures.inputs())
         .map_err(|error| beyond_device(&error))?;

@@ -2,7 +2,7 @@
 
 use super::report::{Line, Report};
 
-/// What [`Interleaved`](subsurface_codegen::Kernel::Interleaved) has to reach.
+/// What [`Interleaved`](subsurface_codegen::Estimator::Interleaved) has to reach.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Goal {
     /// The rival's PSNR in at most [`LARGEST_SHARE`] of its time.

@@ -1,4 +1,4 @@
-//! Kernels side by side: how far each is from [`Dense`](subsurface_codegen::Kernel::Dense), and how long it takes.
+//! Kernels side by side: how far each is from [`Dense`](subsurface_codegen::Estimator::Dense), and how long it takes.
 //!
 //! A [`Contender`] enters a [`Stage`], which is a [`Case`] (buffers, seen at some scale) with a [`Subject`] (a material
 //! and its profile), and comes out with a [`Score`]: root mean square error and PSNR over the translucent pixels
@@ -29,14 +29,14 @@ use crate::draw::{Precision, Uploaded};
 use crate::failure::Failure;
 use crate::progress::bar;
 use std::time::{Duration, Instant};
-use subsurface_codegen::{Kernel, OutputFormat};
+use subsurface_codegen::{Estimator, OutputFormat};
 use subsurface_runtime::Path;
 
 /// The kernel whose time counts as 1.
-pub const YARDSTICK: Kernel = Kernel::ImportanceSampled { taps: 17 };
+pub const YARDSTICK: Estimator = Estimator::ImportanceSampled { taps: 17 };
 
 /// The kernel that bears witness to the reference: another estimator of the same sum, with taps enough to be close.
-pub const WITNESS: Kernel = Kernel::ImportanceSampled { taps: 1024 };
+pub const WITNESS: Estimator = Estimator::ImportanceSampled { taps: 1024 };
 
 /// How to measure.
 #[derive(Clone, Copy, Debug)]
@@ -62,7 +62,7 @@ pub fn run(
     let progress = bar(steps, format!("{}, {}: dense", case.name, subject.name));
     // The reference alone may take minutes.
     progress.enable_steady_tick(Duration::from_millis(200));
-    let (reference, dense_ms) = single_picture(device, case, subject, options, Kernel::Dense)?;
+    let (reference, dense_ms) = single_picture(device, case, subject, options, Estimator::Dense)?;
     progress.set_message(format!("{}, {}: witness", case.name, subject.name));
     let (witness, _) = single_picture(device, case, subject, options, WITNESS)?;
     progress.inc(1);
@@ -124,7 +124,7 @@ fn single_picture(
     case: &Case,
     subject: &Subject,
     options: &Options,
-    kernel: Kernel,
+    kernel: Estimator,
 ) -> Result<(Vec<[f32; 4]>, f64), Failure> {
     let format = OutputFormat::Rgba32Float;
     let materials = subject.compile(kernel, format)?;

@@ -2,7 +2,7 @@
 
 use crate::failure::Failure;
 use std::path::{Path, PathBuf};
-use subsurface_codegen::{Compilation, Compiler, Kernel, Material, OutputFormat, Report};
+use subsurface_codegen::{Compilation, Compiler, Estimator, Material, OutputFormat, Report};
 use subsurface_profile::{Channel, Medium, RadialProfile};
 
 /// A material, its profile, and how to compile it with any kernel.
@@ -77,8 +77,8 @@ impl Subject {
     }
 
     /// The material set with a kernel and an output of `format`.
-    pub fn compile(&self, kernel: Kernel, format: OutputFormat) -> Result<Compilation, Failure> {
-        let compiler = self.compiler.clone().without_gbuffer().kernel(kernel).output_format(format);
+    pub fn compile(&self, kernel: Estimator, format: OutputFormat) -> Result<Compilation, Failure> {
+        let compiler = self.compiler.clone().without_gbuffer().estimator(kernel).output_format(format);
         compiler.compile().map_err(|report| failure(&report))
     }
 

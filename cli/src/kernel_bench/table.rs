@@ -35,7 +35,7 @@ pub fn scores(report: &Report) -> String {
         text,
         "dense, the reference, took {:.1} ms once, its pipeline included; {} {} agrees to {:.1} dB",
         report.dense_ms,
-        KernelContender { kernel: WITNESS }.family(),
+        KernelContender { estimator: WITNESS }.family(),
         WITNESS.taps(),
         report.witness_db
     );

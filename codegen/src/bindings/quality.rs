@@ -17,7 +17,7 @@ pub(crate) fn quality_tokens(report: &QualityReport) -> TokenStream {
     let taps = report.tiers.iter().map(|tier| Literal::u32_unsuffixed(tier.taps));
     let errors = report.tiers.iter().map(|tier| Literal::f64_unsuffixed(tier.error));
     let count = Literal::usize_unsuffixed(report.tiers.len());
-    let kernel = format!(" Tap counts of this set's kernel, `{}`, by quality.", report.kernel.kind_name());
+    let kernel = format!(" Tap counts of this set's kernel, `{}`, by quality.", report.estimator.name());
     quote! {
         /// Error of this set's kernel: the root mean square difference from the exact result over the pixels of a
         /// picture, as a fraction of the white level; the largest over a step edge, a line of one pixel, a disc and a

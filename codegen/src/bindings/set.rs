@@ -6,10 +6,10 @@ use quote::quote;
 use crate::compiler::{PROFILE_CURVES_FILE, PROFILE_TABLES_FILE};
 use crate::docs::Docs;
 use crate::identifier::camel_case;
-use crate::kernel::Kernel;
 use crate::layout::{FieldType, Structure, structure};
 use crate::material::MaterialSet;
 use crate::value::Value;
+use subsurface_kernel::{Estimator, KernelModule, KernelParts, RowBinding};
 
 use super::{Paths, Slot, doc_attributes, gap_name, slots};
 
@@ -18,11 +18,8 @@ pub(crate) struct SetBindings<'a> {
     pub(crate) set: &'a MaterialSet,
     pub(crate) rows: &'a [Value],
     pub(crate) provenance: &'a str,
-    pub(crate) kernel: Kernel,
-    /// Width and height of the texture of curves, texels.
-    pub(crate) curve_size: [u32; 2],
-    /// Whether the kernel reads tables of profiles.
-    pub(crate) has_tables: bool,
+    /// What the generated `kernel()` returns.
+    pub(crate) parts: &'a KernelParts,
 }
 
 /// The enum of the materials, their table and their kernel.
@@ -47,22 +44,20 @@ pub(crate) fn set_tokens(
     let rows = bindings.rows.iter().map(|value| literal(module, row, value));
     let row_name = Ident::new(&row.name, Span::call_site());
     let provenance = bindings.provenance;
-    let (tables, profile_tables) = if bindings.has_tables {
+    let (tables, profile_tables) = if bindings.parts.profile_tables().is_empty() {
+        (TokenStream::new(), TokenStream::new())
+    } else {
         let file = PROFILE_TABLES_FILE;
         let tables = quote! {
             /// The tables of tabulated profiles.
             #[allow(dead_code)]
             pub static PROFILE_TABLES: &[u8] = include_bytes!(#file);
         };
-        (tables, quote!(PROFILE_TABLES))
-    } else {
-        (TokenStream::new(), quote!(&[]))
+        (tables, quote!(.profile_tables(PROFILE_TABLES)))
     };
-    let borrowed = quote!(::std::borrow::Cow::Borrowed);
     let curves = PROFILE_CURVES_FILE;
-    let [curve_width, curve_height] = bindings.curve_size.map(Literal::u32_unsuffixed);
-    let kind = Ident::new(bindings.kernel.kind_name(), Span::call_site());
-    let taps = Literal::u32_unsuffixed(bindings.kernel.taps());
+    let [curve_width, curve_height] = bindings.parts.curve_size().map(Literal::u32_unsuffixed);
+    let kernel_module = kernel_module(bindings.parts.module(), runtime);
     quote! {
         /// The materials of the set. `as u32` is the number that the G-buffer's surface target holds.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -114,22 +109,62 @@ pub(crate) fn set_tokens(
         pub const WGSL: &str = include_str!("subsurface.wgsl");
         /// The kernel of this set, for the passes of the runtime.
         #[allow(dead_code)]
-        pub fn kernel() -> #runtime::SubsurfaceKernel {
-            #runtime::SubsurfaceKernel::from_generated(#runtime::KernelParts {
-                wgsl: #borrowed(WGSL),
-                material_table: #borrowed(#bytemuck::cast_slice(&MATERIALS)),
-                material_names: Material::NAMES.map(#borrowed).to_vec(),
-                profile_tables: #borrowed(#profile_tables),
-                profile_curves: #borrowed(PROFILE_CURVES),
-                curve_size: CURVE_SIZE,
-                kind: #runtime::KernelKind::#kind,
-                taps: #taps,
-            })
+        pub fn kernel() -> #runtime::KernelParts {
+            #runtime::KernelParts::builder(#kernel_module)
+                .materials(
+                    Material::NAMES,
+                    #bytemuck::cast_slice::<_, u8>(&MATERIALS),
+                    ::core::mem::size_of::<#row_name>() as u32,
+                )
+                .profile_curves(PROFILE_CURVES, CURVE_SIZE)
+                #profile_tables
+                .build()
+                .expect("the parts of one compilation fit")
         }
     }
 }
 
-/// `value` as a Rust expression of the struct's type; fields that the value does not name are zero.
+/// The module as an expression that makes it.
+fn kernel_module(module: &KernelModule, runtime: &TokenStream) -> TokenStream {
+    let variant = Ident::new(module.estimator().name(), Span::call_site());
+    let taps = Literal::u32_unsuffixed(module.estimator().taps());
+    let fields = match module.estimator() {
+        Estimator::Interleaved { .. } | Estimator::ImportanceSampled { .. } => quote!({ taps: #taps }),
+        Estimator::Separable { rotated, .. } => quote!({ taps: #taps, rotated: #rotated }),
+        Estimator::Dense => TokenStream::new(),
+    };
+    let stride = Literal::u32_unsuffixed(module.row_stride());
+    let binding = match module.row_binding() {
+        RowBinding::Uniform => quote!(Uniform),
+        RowBinding::Storage => quote!(Storage),
+    };
+    let entry_points = module.entry_points();
+    let format = Ident::new(&format!("{:?}", module.output_format()), Span::call_site());
+    let place = match module.output_format_place() {
+        Some(place) => {
+            let [start, end] = [place.start, place.end].map(Literal::usize_unsuffixed);
+            quote!(Some(#start..#end))
+        }
+        None => quote!(None),
+    };
+    let tables = module.knot_stride().map(|stride| {
+        let stride = Literal::u32_unsuffixed(stride);
+        quote!(.with_profile_tables(#stride))
+    });
+    quote! {
+        #runtime::KernelModule::new(
+            #runtime::Estimator::#variant #fields,
+            WGSL,
+            #stride,
+            #runtime::RowBinding::#binding,
+        )
+        .with_entry_points([#(#entry_points),*])
+        .with_output_format(#runtime::OutputFormat::#format, #place)
+        #tables
+    }
+}
+
+/// `value`, which [`check`](crate::value_mismatch::check) accepts, as a Rust expression of the struct's type.
 fn literal(module: &naga::Module, layout: &Structure, value: &Value) -> TokenStream {
     let name = Ident::new(&layout.name, Span::call_site());
     let fields = slots(layout).into_iter().map(|slot| match slot {
@@ -142,9 +177,10 @@ fn literal(module: &naga::Module, layout: &Structure, value: &Value) -> TokenStr
             let name = Ident::new(&field.name, Span::call_site());
             let expression = match (&field.ty, value.field(&field.name)) {
                 (FieldType::Struct(handle), inner) => {
-                    let zero = Value::Struct(Vec::new());
                     let inner_structure = structure(module, &Docs::default(), *handle);
-                    inner_structure.map(|s| literal(module, &s, inner.unwrap_or(&zero))).unwrap_or_default()
+                    inner_structure
+                        .map(|s| literal(module, &s, inner.unwrap_or(&Value::Zero)))
+                        .unwrap_or_default()
                 }
                 (_, Some(Value::F32(value))) => number(*value),
                 (_, Some(Value::U32(value))) => {

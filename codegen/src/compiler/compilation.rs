@@ -2,12 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
+use subsurface_kernel::{Estimator, KernelParts, Rejection};
+
 use crate::diagnostics::Report;
-use crate::kernel::Kernel;
 use crate::material::MaterialSet;
 use crate::output::{self, BuildError};
 use crate::quality::QualityReport;
-use crate::rejection::Rejection;
 
 /// File of the tables of tabulated profiles, beside the WGSL.
 pub(crate) const PROFILE_TABLES_FILE: &str = "subsurface.tables";
@@ -19,28 +19,18 @@ pub(crate) const PROFILE_CURVES_FILE: &str = "subsurface.curves";
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Compilation {
-    /// The kernel module: validated WGSL.
-    pub wgsl: String,
+    /// What the passes take: the module with its rows, curves and tables.
+    pub parts: KernelParts,
     /// Rust bindings; they include the WGSL from `subsurface.wgsl` beside them.
     pub rust: String,
     /// Reflection manifest: JSON.
     pub manifest: String,
     /// The materials, by number.
     pub set: MaterialSet,
-    /// The kernel that was generated: the compiler's, or else that of the set.
-    pub kernel: Kernel,
-    /// Which taps it leaves out: as the compiler says, or else the set.
+    /// Which taps the estimator leaves out: as the compiler says, or else the set.
     pub rejection: Rejection,
-    /// What the kernel was chosen by, if the set asks for an error.
+    /// What the estimator was chosen by, if the set asks for an error.
     pub quality: Option<QualityReport>,
-    /// The parameter table, as the bytes of the storage buffer.
-    pub material_table: Vec<u8>,
-    /// The tables of tabulated profiles, as the bytes of the second storage buffer; empty where no material uses one.
-    pub profile_tables: Vec<u8>,
-    /// The curves of all profiles, as the bytes of an rgba32float texture, row by row.
-    pub profile_curves: Vec<u8>,
-    /// Width and height of that texture, texels; the height is at most 8192.
-    pub curve_size: [u32; 2],
     /// SHA-256 of the inputs, hexadecimal.
     pub provenance: String,
     /// Warnings.
@@ -51,7 +41,24 @@ pub struct Compilation {
     pub directories_read: Vec<PathBuf>,
 }
 
+/// What the passes take, without the rest.
+impl From<Compilation> for KernelParts {
+    fn from(compilation: Compilation) -> Self {
+        compilation.parts
+    }
+}
+
 impl Compilation {
+    /// The kernel module: validated WGSL.
+    pub fn wgsl(&self) -> &str {
+        self.parts.module().wgsl()
+    }
+
+    /// The estimator that was generated: the compiler's, or else that of the set.
+    pub fn estimator(&self) -> Estimator {
+        self.parts.module().estimator()
+    }
+
     /// Names of the materials, by number.
     pub fn material_names(&self) -> Vec<String> {
         self.set.materials.iter().map(|material| material.name.clone()).collect()
@@ -65,11 +72,11 @@ impl Compilation {
     /// A file that cannot be written.
     pub fn write_to(&self, directory: &Path) -> Result<(), BuildError> {
         for (name, contents) in [
-            ("subsurface.wgsl", self.wgsl.as_bytes()),
+            ("subsurface.wgsl", self.wgsl().as_bytes()),
             ("subsurface.rs", self.rust.as_bytes()),
             ("subsurface.json", self.manifest.as_bytes()),
-            (PROFILE_CURVES_FILE, &self.profile_curves),
-            (PROFILE_TABLES_FILE, &self.profile_tables),
+            (PROFILE_CURVES_FILE, self.parts.profile_curves()),
+            (PROFILE_TABLES_FILE, self.parts.profile_tables()),
         ] {
             // Most sets have no tables, and need no empty file.
             if !contents.is_empty() {

@@ -1,11 +1,11 @@
 //! The kernel module of a set, from its materials to a validated text.
 
+use subsurface_kernel::{Estimator, RowBinding};
 use subsurface_shaders::{KERNELS, LIBRARY, Module, PASSES, PROFILES};
 
 use crate::compose::{LinkError, Linked, link};
 use crate::diagnostics::{Diagnostic, Report};
 use crate::emit::{Choices, Emitted, emit, material_constant};
-use crate::kernel::Kernel;
 use crate::material::MaterialSet;
 use crate::reflect::{Reflection, reflect};
 use crate::validate::{Validated, validate};
@@ -36,6 +36,7 @@ pub(super) struct KernelModule {
     pub(super) emitted: Emitted,
     pub(super) validated: Validated,
     pub(super) reflection: Reflection,
+    pub(super) row_binding: RowBinding,
 }
 
 impl KernelModule {
@@ -58,7 +59,7 @@ impl KernelModule {
         let in_use = |module: &&Module| {
             emitted.models.iter().any(|model| module.name == format!("profiles/{}", model.stem()))
         };
-        let pass_files = pass_files(choices.kernel, gbuffer);
+        let pass_files = pass_files(choices.estimator, gbuffer);
         let modules: Vec<Module> = LIBRARY
             .iter()
             .chain(PROFILES.iter().filter(in_use))
@@ -67,12 +68,12 @@ impl KernelModule {
             .copied()
             .chain(passes.iter().map(|pass| Module { name: pass.name, text: pass.text }))
             .collect();
-        parameter_table::declare(&mut emitted.glue, &modules, set.materials.len());
+        let row_binding = parameter_table::declare(&mut emitted.glue, &modules, set.materials.len());
         let mut roots = SUBSURFACE_ENTRIES.to_vec();
-        if choices.kernel.has_two_stages() {
+        if choices.estimator.has_two_stages() {
             roots.extend(FIRST_ENTRIES);
         }
-        if choices.kernel.packs_pixels() {
+        if choices.estimator.packs_pixels() {
             roots.push(PACK_ENTRY);
         }
         if gbuffer {
@@ -88,7 +89,7 @@ impl KernelModule {
         };
         let validated = validate(&linked, "subsurface.wgsl", report)?;
         match reflect(&validated.module, &validated.info, &linked) {
-            Ok(reflection) => Some(Self { linked, emitted, validated, reflection }),
+            Ok(reflection) => Some(Self { linked, emitted, validated, reflection, row_binding }),
             Err(error) => {
                 report.push(Diagnostic::error(error.to_string()).help(DEFECT));
                 None
@@ -117,8 +118,8 @@ fn link_diagnostic(set: &MaterialSet, error: &LinkError) -> Diagnostic {
 }
 
 /// The modules that hold the passes of one kernel: what all kernels share, and what this one adds.
-fn pass_files(kernel: Kernel, gbuffer: bool) -> Vec<String> {
-    let stem = kernel.stem();
+fn pass_files(estimator: Estimator, gbuffer: bool) -> Vec<String> {
+    let stem = estimator.stem();
     let mut files = vec![
         "passes/subsurface".to_owned(),
         "passes/subsurface_compute".to_owned(),
@@ -126,7 +127,7 @@ fn pass_files(kernel: Kernel, gbuffer: bool) -> Vec<String> {
         "passes/subsurface_fragment".to_owned(),
         format!("passes/{stem}"),
     ];
-    if kernel.has_two_stages() {
+    if estimator.has_two_stages() {
         files.push(format!("passes/{stem}_compute"));
     } else {
         files.extend(["passes/single_stage".to_owned(), "passes/single_stage_compute".to_owned()]);

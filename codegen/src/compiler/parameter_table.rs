@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use naga::TypeInner;
+use subsurface_kernel::RowBinding;
 use subsurface_shaders::Module;
 
 use crate::compose::{Glue, link};
@@ -13,20 +14,21 @@ use super::ROW;
 const LARGEST_UNIFORM_BUFFER: usize = 65536;
 
 /// Adds the declaration to the glue: a uniform buffer where the rows fit, since software drivers load from a storage
-/// buffer much more slowly at an index that is no constant. The runtime binds what is declared here.
-pub(super) fn declare(glue: &mut Glue, modules: &[Module], materials: usize) {
+/// buffer much more slowly at an index that is no constant. Returns what it declares.
+pub(super) fn declare(glue: &mut Glue, modules: &[Module], materials: usize) -> RowBinding {
     // Where the row cannot be laid out, the whole module cannot either, and linking or validating it says why.
     let bytes = row_bytes(glue, modules).map(|bytes| bytes * materials);
-    let declaration = if bytes.is_some_and(|bytes| bytes <= LARGEST_UNIFORM_BUFFER) {
-        format!("var<uniform> material_table: array<{ROW}, {materials}>;")
+    let (binding, declaration) = if bytes.is_some_and(|bytes| bytes <= LARGEST_UNIFORM_BUFFER) {
+        (RowBinding::Uniform, format!("var<uniform> material_table: array<{ROW}, {materials}>;"))
     } else {
-        format!("var<storage, read> material_table: array<{ROW}>;")
+        (RowBinding::Storage, format!("var<storage, read> material_table: array<{ROW}>;"))
     };
     let _ = writeln!(
         glue.text,
         "\n/// One row per material of the set, in the order of the material numbers.\n\
          @group(0) @binding(0) {declaration}"
     );
+    binding
 }
 
 /// Bytes of one row, as naga lays it out. Rows of either address space have one layout: see `emit_row`.

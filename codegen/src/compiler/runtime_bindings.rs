@@ -8,9 +8,9 @@ use crate::bindings::{self, Paths};
 use crate::compose::link;
 use crate::diagnostics::{Diagnostic, Report};
 use crate::emit::Choices;
-use crate::output_format::OutputFormat;
 use crate::reflect::reflect;
 use crate::validate::validate;
+use subsurface_kernel::OutputFormat;
 
 use super::{Compiler, DEFECT, KernelModule, ROW};
 
@@ -65,8 +65,11 @@ pub fn runtime_bindings() -> Result<String, Report> {
     let loaded = Compiler::from_memory([("sample.ron", sample)]).load();
     let mut report = loaded.report;
     let Some(set) = loaded.set else { return Err(report) };
-    let choices =
-        Choices { kernel: set.kernel, rejection: set.rejection, output_format: OutputFormat::default() };
+    let choices = Choices {
+        estimator: set.estimator,
+        rejection: set.rejection,
+        output_format: OutputFormat::default(),
+    };
     let Some(kernel) = KernelModule::generate(&set, &choices, true, &[], "", &mut report) else {
         return Err(report);
     };

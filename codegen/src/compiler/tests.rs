@@ -1,7 +1,7 @@
 //! What a set becomes.
 
 use super::*;
-use crate::rejection::Rejected;
+use subsurface_kernel::Rejected;
 
 const LENGTH_AND_ALBEDO: &str = "mean_free_path_mm: (1.3, 0.95, 0.67), surface_albedo: (0.8, 0.6, 0.4)";
 
@@ -17,20 +17,20 @@ fn compile(files: &[(&str, String)]) -> Compilation {
 #[test]
 fn only_the_models_in_use_are_linked_in() {
     let one = compile(&[("a.ron", material("Burley(parametrization: Diffuse)"))]);
-    assert!(one.wgsl.contains("fn burley_radial_cdf"));
+    assert!(one.wgsl().contains("fn burley_radial_cdf"));
     for other in ["polynomial", "gaussian_sum", "exponential_dipole"] {
         assert!(
-            !one.wgsl.contains(&format!("fn {other}")) && !one.wgsl.contains(&format!("{other}:")),
+            !one.wgsl().contains(&format!("fn {other}")) && !one.wgsl().contains(&format!("{other}:")),
             "{other}"
         );
     }
-    assert!(!one.wgsl.contains("switch profile.model"), "one model needs no switch");
+    assert!(!one.wgsl().contains("switch profile.model"), "one model needs no switch");
     let two = compile(&[
         ("a.ron", material("Burley(parametrization: Diffuse)")),
         ("b.ron", material("ExponentialDipole(entry: Searchlight)")),
     ]);
     assert!(
-        two.wgsl.contains("switch profile.model") && two.wgsl.contains("fn exponential_dipole_radial_cdf")
+        two.wgsl().contains("switch profile.model") && two.wgsl().contains("fn exponential_dipole_radial_cdf")
     );
 }
 
@@ -38,13 +38,13 @@ fn only_the_models_in_use_are_linked_in() {
 fn dead_functions_are_dropped_with_the_pass_that_used_them() {
     let files = [("a.ron", material("Burley(parametrization: Diffuse)"))];
     let whole = compile(&files);
-    assert!(whole.wgsl.contains("fn gbuffer_fragment") && whole.wgsl.contains("fn channel_transmittance"));
+    assert!(whole.wgsl().contains("fn gbuffer_fragment") && whole.wgsl().contains("fn channel_transmittance"));
     let files = files.iter().map(|(path, text)| (*path, text.as_str()));
     let lean = Compiler::from_memory(files).without_gbuffer().compile().unwrap_or_else(|r| panic!("{r}"));
     for name in
         ["fn gbuffer_fragment", "fn channel_transmittance", "fn shadow_visibility", "fn specular_reflection"]
     {
-        assert!(!lean.wgsl.contains(name), "{name} is dead without the G-buffer pass");
+        assert!(!lean.wgsl().contains(name), "{name} is dead without the G-buffer pass");
     }
 }
 
@@ -61,7 +61,7 @@ fn the_order_of_the_files_changes_no_byte() {
     let compiled = |order: &[usize]| {
         let files: Vec<_> = order.iter().map(|&i| (names[i], text(names[i]))).collect();
         let compilation = compile(&files);
-        (compilation.wgsl, compilation.rust, compilation.manifest, compilation.material_table)
+        (compilation.wgsl(), compilation.rust, compilation.manifest, compilation.parts.material_rows())
     };
     let first = compiled(&[0, 1, 2, 3]);
     assert!(first == compiled(&[3, 2, 1, 0]) && first == compiled(&[2, 0, 3, 1]));
@@ -75,7 +75,7 @@ fn provenance_follows_the_inputs() {
     assert_eq!(a.provenance, same.provenance);
     assert_ne!(a.provenance, other.provenance);
     assert!(
-        a.wgsl.contains(&a.provenance)
+        a.wgsl().contains(&a.provenance)
             && a.rust.contains(&a.provenance)
             && a.manifest.contains(&a.provenance)
     );
@@ -86,9 +86,9 @@ fn equal_gaussian_sums_share_their_terms() {
     let skin = || material("\"gaussian_skin\"");
     let compilation = compile(&[("a.ron", skin()), ("b.ron", skin())]);
     // A row for each channel, and one that the six terms begin.
-    assert_eq!(compilation.curve_size, [64, 4]);
+    assert_eq!(compilation.parts.curve_size(), [64, 4]);
     let term = |index: usize| -> Vec<f32> {
-        let texel = &compilation.profile_curves[16 * (3 * 64 + index)..][..16];
+        let texel = &compilation.parts.profile_curves()[16 * (3 * 64 + index)..][..16];
         texel.chunks(4).map(|bytes| f32::from_le_bytes(bytes.try_into().expect("four bytes"))).collect()
     };
     assert_eq!(term(0), [0.233, 0.455, 0.649, 0.0064]);
@@ -108,7 +108,7 @@ fn the_longest_of_a_set_decides_how_much_is_written_out() {
     let table = |name: &str| material(&format!("Tabulated(file: \"{name}\")"));
     for [first, second] in [[2, 9], [9, 2]] {
         let files = [("a.ron", material(&sum(first))), ("b.ron", material(&sum(second)))];
-        let sums = compile(&files).wgsl;
+        let sums = compile(&files).wgsl().to_owned();
         assert_eq!(sums.matches("sum += gaussian_term_area_pdf(").count(), 9, "{first} and {second} terms");
         let files = [
             ("a.ron", table("first.csv")),
@@ -116,7 +116,7 @@ fn the_longest_of_a_set_decides_how_much_is_written_out() {
             ("first.csv", csv(first)),
             ("second.csv", csv(second)),
         ];
-        let tables = compile(&files).wgsl;
+        let tables = compile(&files).wgsl().to_owned();
         assert_eq!(tables.matches("start = tabulated_stride(").count(), 4, "{first} and {second} pieces");
     }
 }
@@ -149,8 +149,8 @@ fn the_parameter_table_is_a_uniform_buffer_where_it_fits() {
         let compilation = Compiler::from_memory(files.iter().map(|(path, text)| (path, text.as_str())));
         let compilation = compilation.compile().unwrap_or_else(|report| panic!("{report}"));
         let line =
-            compilation.wgsl.lines().find(|line| line.contains("> material_table: ")).map(str::to_owned);
-        (line.unwrap_or_default(), compilation.material_table.len())
+            compilation.wgsl().lines().find(|line| line.contains("> material_table: ")).map(str::to_owned);
+        (line.unwrap_or_default(), compilation.parts.material_rows().len())
     };
     let (one, row) = declaration(1);
     assert_eq!(one, "@group(0) @binding(0) var<uniform> material_table: array<SubsurfaceMaterial, 1>;");
@@ -166,11 +166,11 @@ fn the_parameter_table_is_a_uniform_buffer_where_it_fits() {
 #[test]
 fn every_kernel_compiles_with_every_profile() {
     let kernels = [
-        Kernel::ImportanceSampled { taps: 17 },
-        Kernel::Separable { taps: 17, rotated: false },
-        Kernel::Separable { taps: 17, rotated: true },
-        Kernel::Interleaved { taps: 4 },
-        Kernel::Dense,
+        Estimator::ImportanceSampled { taps: 17 },
+        Estimator::Separable { taps: 17, rotated: false },
+        Estimator::Separable { taps: 17, rotated: true },
+        Estimator::Interleaved { taps: 4 },
+        Estimator::Dense,
     ];
     let table = "r,r_reflectance\n0,0.1\n1,0.05\n2,0\n";
     let stems = subsurface_profile::Model::PUBLISHED
@@ -182,13 +182,13 @@ fn every_kernel_compiles_with_every_profile() {
     let files: Vec<_> = stems.into_iter().chain(tabulated).collect();
     for kernel in kernels {
         let compiler =
-            Compiler::from_memory(files.iter().map(|(path, text)| (path, text.as_str()))).kernel(kernel);
+            Compiler::from_memory(files.iter().map(|(path, text)| (path, text.as_str()))).estimator(kernel);
         let compilation = compiler.compile().unwrap_or_else(|report| panic!("{kernel}: {report}"));
-        assert!(compilation.wgsl.contains(&format!("// Kernel: {kernel}\n")), "{kernel}");
-        let has_edges = matches!(kernel, Kernel::Separable { .. });
+        assert!(compilation.wgsl().contains(&format!("// Estimator: {kernel}\n")), "{kernel}");
+        let has_edges = matches!(kernel, Estimator::Separable { .. });
         // No two of the published models are equal; the terms of the Gaussian sum fill a row more.
         let rows = if has_edges { 2 } else { 1 } * (12 * 16 + 3) + 1;
-        assert_eq!(compilation.curve_size, [64, rows], "{kernel}");
+        assert_eq!(compilation.parts.curve_size(), [64, rows], "{kernel}");
     }
 }
 
@@ -203,11 +203,13 @@ fn all_policies_of_rejection_compile() {
             by_normal: holds(2),
             rejected: if holds(3) { Rejected::ReturnedToCentre } else { Rejected::Renormalized },
         };
-        for kernel in [Kernel::default(), Kernel::Separable { taps: 3, rotated: true }, Kernel::Dense] {
+        for kernel in
+            [Estimator::default(), Estimator::Separable { taps: 3, rotated: true }, Estimator::Dense]
+        {
             let compiler = Compiler::from_memory(files.iter().map(|(path, text)| (path, text.as_str())));
-            let compilation = compiler.kernel(kernel).rejection(rejection).compile();
+            let compilation = compiler.estimator(kernel).rejection(rejection).compile();
             let compilation = compilation.unwrap_or_else(|report| panic!("{kernel}, {rejection}: {report}"));
-            assert!(compilation.wgsl.contains(&format!("// Rejects: {rejection}\n")), "{rejection}");
+            assert!(compilation.wgsl().contains(&format!("// Rejects: {rejection}\n")), "{rejection}");
         }
     }
 }

@@ -2,8 +2,8 @@
 
 use std::rc::Rc;
 
-use crate::kernel::Kernel;
-use crate::rejection::{Rejected, Rejection};
+use subsurface_kernel::Estimator;
+use subsurface_kernel::{Rejected, Rejection};
 
 use super::gathered::Rgb;
 use super::optics::Optics;
@@ -27,7 +27,7 @@ pub(super) struct Case<'a> {
     /// Pixel by pixel, patch by patch.
     expected: Vec<Rgb>,
     /// Kernels that were tried, with their effective taps.
-    known: Vec<(Kernel, Deviation)>,
+    known: Vec<(Estimator, Deviation)>,
 }
 
 /// How far a kernel is from the exact result.
@@ -66,12 +66,12 @@ impl<'a> Case<'a> {
     }
 
     /// Whether two kernels of one kind draw the same picture.
-    pub(super) fn tells_apart(&self, a: Kernel, b: Kernel) -> bool {
+    pub(super) fn tells_apart(&self, a: Estimator, b: Estimator) -> bool {
         Twin::effective(a, &self.stage.point) != Twin::effective(b, &self.stage.point)
     }
 
     /// How far `kernel` is from the exact result; `None` for `Dense`, which has no twin.
-    pub(super) fn deviation(&mut self, kernel: Kernel) -> Option<Deviation> {
+    pub(super) fn deviation(&mut self, kernel: Estimator) -> Option<Deviation> {
         let effective = Twin::effective(kernel, &self.stage.point);
         if let Some((_, deviation)) = self.known.iter().find(|(known, _)| *known == effective) {
             return Some(*deviation);
@@ -81,7 +81,7 @@ impl<'a> Case<'a> {
         Some(deviation)
     }
 
-    fn draw(&self, kernel: Kernel) -> Option<Deviation> {
+    fn draw(&self, kernel: Estimator) -> Option<Deviation> {
         let drawn = self.stage.draw(kernel, self.scene, &self.patches)?;
         let mut squares = [0.0; 3];
         let mut worst_pixel = 0.0_f64;

@@ -1,20 +1,20 @@
 //! How long a kernel takes, so that the cheapest is tried first.
 
-use crate::kernel::Kernel;
+use subsurface_kernel::Estimator;
 
 /// Time per pixel in units of one tap of `ImportanceSampled`.
 ///
 /// Lines through the times that `cargo bench --bench kernels` gives for Burley's profile at a mean radius of 5 pixels
 /// on a software driver, where a tap costs what it computes. They only order the search: a GPU has other figures.
-pub(super) fn cost(kernel: Kernel) -> f64 {
+pub(super) fn cost(kernel: Estimator) -> f64 {
     match kernel {
         // What a pixel sets up is worth eight taps.
-        Kernel::ImportanceSampled { taps } => 8.0 + f64::from(taps),
+        Estimator::ImportanceSampled { taps } => 8.0 + f64::from(taps),
         // The ring of eight pixels, nine blocks to mix and a stage more; taps read packed pixels.
-        Kernel::Interleaved { taps } => 8.5 + 0.7 * f64::from(taps),
+        Estimator::Interleaved { taps } => 8.5 + 0.7 * f64::from(taps),
         // Two stages that each set up a pixel and the integrals of its strips.
-        Kernel::Separable { taps, .. } => 42.0 + 1.8 * f64::from(taps),
-        Kernel::Dense => f64::INFINITY,
+        Estimator::Separable { taps, .. } => 42.0 + 1.8 * f64::from(taps),
+        Estimator::Dense => f64::INFINITY,
     }
 }
 
@@ -22,23 +22,23 @@ pub(super) fn cost(kernel: Kernel) -> f64 {
 const TAPS: [u32; 12] = [1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64];
 
 /// The kernels of one kind that are tried, the one with the fewest taps first.
-pub(super) fn counts(kind: Kernel) -> Vec<Kernel> {
+pub(super) fn counts(kind: Estimator) -> Vec<Estimator> {
     let with = |taps: u32| match kind {
-        Kernel::ImportanceSampled { .. } => Kernel::ImportanceSampled { taps },
+        Estimator::ImportanceSampled { .. } => Estimator::ImportanceSampled { taps },
         // A tap in the middle, and pairs.
-        Kernel::Separable { rotated, .. } => Kernel::Separable { taps: taps | 1, rotated },
-        Kernel::Interleaved { .. } => Kernel::Interleaved { taps },
-        Kernel::Dense => Kernel::Dense,
+        Estimator::Separable { rotated, .. } => Estimator::Separable { taps: taps | 1, rotated },
+        Estimator::Interleaved { .. } => Estimator::Interleaved { taps },
+        Estimator::Dense => Estimator::Dense,
     };
-    let mut kernels: Vec<Kernel> =
+    let mut kernels: Vec<Estimator> =
         TAPS.into_iter().map(with).filter(|kernel| kernel.refused_taps().is_none()).collect();
     kernels.dedup();
     kernels
 }
 
 /// The kinds that are tried where a set names none.
-pub(super) const KINDS: [Kernel; 3] = [
-    Kernel::ImportanceSampled { taps: 1 },
-    Kernel::Separable { taps: 3, rotated: false },
-    Kernel::Interleaved { taps: 1 },
+pub(super) const KINDS: [Estimator; 3] = [
+    Estimator::ImportanceSampled { taps: 1 },
+    Estimator::Separable { taps: 3, rotated: false },
+    Estimator::Interleaved { taps: 1 },
 ];

@@ -1,6 +1,6 @@
 //! What the search found.
 
-use crate::kernel::Kernel;
+use subsurface_kernel::Estimator;
 
 use super::request::Tier;
 
@@ -9,7 +9,7 @@ use super::request::Tier;
 #[non_exhaustive]
 pub struct QualityReport {
     /// The cheapest kernel whose error is within what was asked for.
-    pub kernel: Kernel,
+    pub estimator: Estimator,
     /// Its error: root mean square over the pixels of a picture, the largest over a step edge, a line of one pixel, a
     /// disc and a crease, at mean radii of 1, 3 and 10 pixels, over channels and materials; a fraction of the white
     /// level, rounded up to three digits.

@@ -1,7 +1,7 @@
 //! What a material set may ask for.
 
-use crate::kernel::Kernel;
 use crate::source::Span;
+use subsurface_kernel::Estimator;
 
 /// How good a kernel has to be: the error that `MaterialSet(quality: …)` allows.
 ///
@@ -74,7 +74,7 @@ pub struct QualityRequest {
     /// What is asked for.
     pub quality: Quality,
     /// The kind of kernel that it is asked of, whatever its taps; `None` for the cheapest of all.
-    pub kernel: Option<Kernel>,
+    pub estimator: Option<Estimator>,
     /// The value of `quality`.
     pub span: Span,
 }

@@ -1,8 +1,8 @@
 //! The search: candidates by cost, the first within the error wins.
 
-use crate::kernel::Kernel;
 use crate::material::MaterialSet;
-use crate::rejection::Rejection;
+use subsurface_kernel::Estimator;
+use subsurface_kernel::Rejection;
 
 use super::cases::{Case, Deviation, FOOTPRINTS};
 use super::cost::{KINDS, cost, counts};
@@ -20,14 +20,14 @@ pub(crate) fn solve(
 ) -> Result<QualityReport, Unreachable> {
     let optics = Optics::of_all(&set.materials).map_err(Unreachable::NoProfile)?;
     let mut trial = Trial { cases: Case::all(&optics, rejection) };
-    let mut candidates: Vec<Kernel> = match request.kernel {
+    let mut candidates: Vec<Estimator> = match request.estimator {
         Some(kind) => trial.counts(kind),
         None => KINDS.into_iter().flat_map(|kind| trial.counts(kind)).collect(),
     };
     // Stable: of two that cost the same, the kind that comes first.
     candidates.sort_by(|a, b| cost(*a).total_cmp(&cost(*b)));
     let Some((kernel, deviation)) = trial.first_within(&candidates, request.quality.target()) else {
-        let (best, deviation) = trial.best(&candidates).unwrap_or((Kernel::Dense, Deviation::default()));
+        let (best, deviation) = trial.best(&candidates).unwrap_or((Estimator::Dense, Deviation::default()));
         let (request, error) = (Box::new(request.clone()), stated(deviation.error));
         return Err(Unreachable::OutOfReach { request, best, error });
     };
@@ -39,11 +39,17 @@ pub(crate) fn solve(
     });
     let Deviation { error, worst_pixel } = deviation;
     let pictures = trial.pictures(kernel);
-    Ok(QualityReport { kernel, error: stated(error), worst_pixel: stated(worst_pixel), tiers, pictures })
+    Ok(QualityReport {
+        estimator: kernel,
+        error: stated(error),
+        worst_pixel: stated(worst_pixel),
+        tiers,
+        pictures,
+    })
 }
 
 /// A candidate, and how far it is from the exact result.
-type Found = (Kernel, Deviation);
+type Found = (Estimator, Deviation);
 
 /// The cases, the one first that was the last to be hard: it is likely to refuse the next candidate as well.
 struct Trial<'a> {
@@ -52,21 +58,21 @@ struct Trial<'a> {
 
 impl Trial<'_> {
     /// Those numbers of taps of a kind that make a difference: footprints put an end to them.
-    fn counts(&self, kind: Kernel) -> Vec<Kernel> {
+    fn counts(&self, kind: Estimator) -> Vec<Estimator> {
         let mut kernels = counts(kind);
         kernels.dedup_by(|next, last| !self.cases.iter().any(|case| case.tells_apart(*next, *last)));
         kernels
     }
 
     /// The first candidate within `target`.
-    fn first_within(&mut self, candidates: &[Kernel], target: f64) -> Option<Found> {
+    fn first_within(&mut self, candidates: &[Estimator], target: f64) -> Option<Found> {
         candidates
             .iter()
             .find_map(|&kernel| self.deviation_within(kernel, target).map(|deviation| (kernel, deviation)))
     }
 
     /// The candidate with the least error; the first of equals.
-    fn best(&mut self, candidates: &[Kernel]) -> Option<Found> {
+    fn best(&mut self, candidates: &[Estimator]) -> Option<Found> {
         // The most promising on the hardest case first: few of the others have to be tried on all.
         let mut order: Vec<(usize, f64)> = Vec::new();
         for (place, &kernel) in candidates.iter().enumerate() {
@@ -92,7 +98,7 @@ impl Trial<'_> {
     }
 
     /// Deviations of a kernel by picture and footprint, whatever the material.
-    fn pictures(&mut self, kernel: Kernel) -> Vec<PictureReport> {
+    fn pictures(&mut self, kernel: Estimator) -> Vec<PictureReport> {
         let mut pictures = Vec::new();
         for mean_radius_pixels in FOOTPRINTS {
             for scene in Scene::all(mean_radius_pixels) {
@@ -113,7 +119,7 @@ impl Trial<'_> {
     }
 
     /// Deviation of a kernel over all cases; `None` when its error is above `limit`, or for a kernel without a twin.
-    fn deviation_within(&mut self, kernel: Kernel, limit: f64) -> Option<Deviation> {
+    fn deviation_within(&mut self, kernel: Estimator, limit: f64) -> Option<Deviation> {
         let mut all = Deviation::default();
         let mut hardest = 0;
         for index in 0..self.cases.len() {

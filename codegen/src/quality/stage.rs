@@ -2,7 +2,7 @@
 
 use std::cell::RefCell;
 
-use crate::kernel::Kernel;
+use subsurface_kernel::Estimator;
 
 use super::gathered::Rgb;
 use super::patch::Patch;
@@ -14,7 +14,7 @@ use super::twin::Twin;
 #[derive(Debug)]
 pub(super) struct Stage<'a> {
     pub(super) point: Point<'a>,
-    last: RefCell<Option<(Kernel, Twin<'a>)>>,
+    last: RefCell<Option<(Estimator, Twin<'a>)>>,
 }
 
 impl<'a> Stage<'a> {
@@ -23,7 +23,7 @@ impl<'a> Stage<'a> {
     }
 
     /// The pixels of a scene, patch by patch; `None` for `Dense`, which has no twin.
-    pub(super) fn draw(&self, kernel: Kernel, scene: Scene, patches: &[Patch]) -> Option<Vec<Rgb>> {
+    pub(super) fn draw(&self, kernel: Estimator, scene: Scene, patches: &[Patch]) -> Option<Vec<Rgb>> {
         let known = self.last.take().filter(|(known, _)| *known == kernel);
         let twin = match known {
             Some((_, twin)) => twin,

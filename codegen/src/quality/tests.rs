@@ -14,11 +14,11 @@ use super::twin::Twin;
 use super::{Quality, QualityReport, QualityRequest, Tier, solve};
 use super::{far_field, gathered, interleaved, near_field, optics, point};
 use crate::diagnostics::Diagnostic;
-use crate::kernel::Kernel;
 use crate::load_memory;
 use crate::material::MaterialSet;
-use crate::rejection::{Rejected, Rejection};
 use crate::source::{SourceMap, Span};
+use subsurface_kernel::Estimator;
+use subsurface_kernel::{Rejected, Rejection};
 
 const SKIN: &str = "mean_free_path_mm: (1.30, 0.95, 0.67), surface_albedo: (0.83, 0.64, 0.55)";
 
@@ -39,18 +39,18 @@ fn optics_of(materials: &[&str]) -> Vec<Optics> {
     Optics::of_all(&set_of(materials).materials).unwrap_or_else(|error| panic!("{}", error.reason))
 }
 
-fn request(quality: Quality, kernel: Option<Kernel>) -> QualityRequest {
+fn request(quality: Quality, kernel: Option<Estimator>) -> QualityRequest {
     let file = SourceMap::new().add("set.ron", "");
     QualityRequest { quality, kernel, span: Span::new(file, 0..0) }
 }
 
-fn solved(materials: &[&str], quality: Quality, kernel: Option<Kernel>) -> QualityReport {
+fn solved(materials: &[&str], quality: Quality, kernel: Option<Estimator>) -> QualityReport {
     let found = solve(&set_of(materials), Rejection::default(), &request(quality, kernel));
     found.unwrap_or_else(|error| panic!("{}", Diagnostic::from(error).message))
 }
 
 /// Over all cases.
-fn deviation(cases: &mut [Case<'_>], kernel: Kernel) -> Deviation {
+fn deviation(cases: &mut [Case<'_>], kernel: Estimator) -> Deviation {
     let deviations = cases.iter_mut().map(|case| case.deviation(kernel).expect("it has a twin"));
     deviations.fold(Deviation::default(), Deviation::and)
 }
@@ -125,7 +125,7 @@ fn a_crease_without_depth_is_a_step_edge() {
     let drawn = |scene, rejection| {
         let cases = Case::of_footprint(&optics[0], 3.0, rejection);
         let mut case = cases.into_iter().find(|case| case.scene == scene).expect("one of the four");
-        case.deviation(Kernel::Interleaved { taps: 4 }).expect("it has a twin")
+        case.deviation(Estimator::Interleaved { taps: 4 }).expect("it has a twin")
     };
     assert_eq!(drawn(Scene::Crease, flat), drawn(Scene::StepEdge, flat));
     assert_ne!(drawn(Scene::Crease, Rejection::default()), drawn(Scene::StepEdge, flat));
@@ -227,7 +227,7 @@ fn the_mean_over_all_phases_is_closer_than_the_error() {
     // The turns of pixels are noise about the exact result: over the phases of a patch most of it goes (measured:
     // half).
     let optics = optics_of(&[SKIN]);
-    let kernel = Kernel::ImportanceSampled { taps: 8 };
+    let kernel = Estimator::ImportanceSampled { taps: 8 };
     let point = Point::new(&optics[0], 10.0, true, false);
     let scene = Scene::StepEdge;
     let twin = Twin::new(kernel, point).expect("it has a twin");
@@ -248,7 +248,7 @@ fn the_mean_over_all_phases_is_closer_than_the_error() {
 }
 
 /// Largest difference between the pixels of a column of a step edge, where all ought to be alike.
-fn difference_within_columns(optics: &Optics, kernel: Kernel) -> f64 {
+fn difference_within_columns(optics: &Optics, kernel: Estimator) -> f64 {
     let twin = Twin::new(kernel, Point::new(optics, 10.0, true, false)).expect("it has a twin");
     let scene = Scene::StepEdge;
     let mut difference = 0.0_f64;
@@ -266,20 +266,20 @@ fn difference_within_columns(optics: &Optics, kernel: Kernel) -> f64 {
 fn an_even_window_leaves_no_noise_along_an_edge() {
     let optics = optics_of(&[SKIN]);
     for taps in [1, 2, 3, 4] {
-        let difference = difference_within_columns(&optics[0], Kernel::Interleaved { taps });
+        let difference = difference_within_columns(&optics[0], Estimator::Interleaved { taps });
         // Rounding of sums of f64.
         assert!(difference < 1e-12, "{taps} taps: {difference}");
     }
     // A narrower one shows the slices, and pixels that are turned one by one show more.
-    assert!(difference_within_columns(&optics[0], Kernel::Interleaved { taps: 6 }) > 1e-3);
-    assert!(difference_within_columns(&optics[0], Kernel::ImportanceSampled { taps: 16 }) > 1e-2);
+    assert!(difference_within_columns(&optics[0], Estimator::Interleaved { taps: 6 }) > 1e-3);
+    assert!(difference_within_columns(&optics[0], Estimator::ImportanceSampled { taps: 16 }) > 1e-2);
 }
 
 #[test]
 fn the_error_falls_with_the_taps() {
     let optics = optics_of(&[SKIN]);
     let mut cases = Case::all(&optics, Rejection::default());
-    let mut mean = |kernel: Kernel| {
+    let mut mean = |kernel: Estimator| {
         let errors = cases.iter_mut().map(|case| case.deviation(kernel).expect("it has a twin").error);
         errors.sum::<f64>()
     };
@@ -287,12 +287,12 @@ fn the_error_falls_with_the_taps() {
         let errors: Vec<f64> = counts(kind).into_iter().map(&mut mean).collect();
         let (first, last) = (errors[0], errors[errors.len() - 1]);
         // From the fewest to the most, by a factor of three at least (measured: 4 to 10).
-        assert!(last < first / 3.0, "{}: {errors:?}", kind.kind_name());
+        assert!(last < first / 3.0, "{}: {errors:?}", kind.name());
     }
     // Few interleaved taps do what many others do: this is what they are for.
-    let interleaved = deviation(&mut cases, Kernel::Interleaved { taps: 4 }).error;
-    assert!(interleaved < deviation(&mut cases, Kernel::ImportanceSampled { taps: 17 }).error);
-    assert!(interleaved < deviation(&mut cases, Kernel::Separable { taps: 17, rotated: false }).error);
+    let interleaved = deviation(&mut cases, Estimator::Interleaved { taps: 4 }).error;
+    assert!(interleaved < deviation(&mut cases, Estimator::ImportanceSampled { taps: 17 }).error);
+    assert!(interleaved < deviation(&mut cases, Estimator::Separable { taps: 17, rotated: false }).error);
 }
 
 #[test]
@@ -307,7 +307,7 @@ fn candidates_are_allowed_and_sorted() {
             Some(if kind == KINDS[1] { 65 } else { 64 })
         );
     }
-    let turned = counts(Kernel::Separable { taps: 17, rotated: true });
+    let turned = counts(Estimator::Separable { taps: 17, rotated: true });
     assert!(turned.iter().all(|kernel| kernel.is_rotated()));
 }
 
@@ -316,7 +316,7 @@ fn the_search_finds_what_trying_everything_finds() {
     let materials = [SKIN, "mean_free_path_mm: (0.2, 2, 1), surface_albedo: (0.9, 0.99, 0.2)"];
     let optics = optics_of(&materials);
     let mut cases = Case::all(&optics, Rejection::default());
-    let mut all: Vec<(Kernel, f64)> = KINDS
+    let mut all: Vec<(Estimator, f64)> = KINDS
         .into_iter()
         .flat_map(counts)
         .map(|kernel| (kernel, deviation(&mut cases, kernel).error))
@@ -326,11 +326,11 @@ fn the_search_finds_what_trying_everything_finds() {
     for target in [0.5, 0.06, least] {
         let (kernel, error) = all.iter().find(|(_, error)| *error <= target).expect("one is good enough");
         let report = solved(&materials, Quality::MaxError(target), None);
-        assert_eq!((report.kernel, report.error), (*kernel, stated(*error)), "{target}");
+        assert_eq!((report.estimator, report.error), (*kernel, stated(*error)), "{target}");
         assert!(report.worst_pixel >= report.error);
         for tier in report.tiers {
             let mut of_kind = all.clone();
-            of_kind.retain(|(other, _)| other.kind_name() == kernel.kind_name());
+            of_kind.retain(|(other, _)| other.name() == kernel.name());
             let within = of_kind.iter().find(|(_, error)| *error <= tier.tier.target());
             let best = of_kind.iter().min_by(|(_, a), (_, b)| a.total_cmp(b)).expect("there are some");
             let (kernel, error) = within.unwrap_or(best);
@@ -348,7 +348,7 @@ fn the_search_finds_what_trying_everything_finds() {
 fn a_named_kernel_is_kept() {
     for kind in KINDS {
         let report = solved(&[SKIN], Quality::MaxError(0.2), Some(kind));
-        assert_eq!(report.kernel.kind_name(), kind.kind_name());
+        assert_eq!(report.estimator.name(), kind.name());
         assert!(report.error <= 0.2);
     }
 }
@@ -371,7 +371,7 @@ fn every_published_profile_has_an_error() {
         let optics = optics_of(&[&text]);
         for rejected in [Rejected::Renormalized, Rejected::ReturnedToCentre] {
             let mut cases = Case::all(&optics, Rejection { rejected, ..Rejection::default() });
-            let Deviation { error, worst_pixel } = deviation(&mut cases, Kernel::Interleaved { taps: 16 });
+            let Deviation { error, worst_pixel } = deviation(&mut cases, Estimator::Interleaved { taps: 16 });
             // Measured: 0.006 to 0.010, and 0.05 for the pixels.
             assert!(error > 1e-4 && error < 0.02 && worst_pixel < 0.1, "{stem}: {error}, {worst_pixel}");
         }

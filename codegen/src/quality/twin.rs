@@ -1,6 +1,6 @@
 //! A kernel at a footprint, whichever it is.
 
-use crate::kernel::Kernel;
+use subsurface_kernel::Estimator;
 
 use super::far_field::PIXELS_OF_BLOCK;
 use super::gathered::Rgb;
@@ -21,34 +21,34 @@ pub(super) enum Twin<'a> {
 
 impl<'a> Twin<'a> {
     /// The twin of a kernel; `None` for `Dense`, which has no error.
-    pub(super) fn new(kernel: Kernel, point: Point<'a>) -> Option<Self> {
+    pub(super) fn new(kernel: Estimator, point: Point<'a>) -> Option<Self> {
         Some(match kernel {
-            Kernel::ImportanceSampled { taps } => {
+            Estimator::ImportanceSampled { taps } => {
                 Self::ImportanceSampled(ImportanceSampled::new(point, taps))
             }
-            Kernel::Separable { taps, rotated } => Self::Separable(Separable::new(point, taps, rotated)),
-            Kernel::Interleaved { taps } => Self::Interleaved(Interleaved::new(point, taps)),
-            Kernel::Dense => return None,
+            Estimator::Separable { taps, rotated } => Self::Separable(Separable::new(point, taps, rotated)),
+            Estimator::Interleaved { taps } => Self::Interleaved(Interleaved::new(point, taps)),
+            Estimator::Dense => return None,
         })
     }
 
     /// A kernel with the taps that the footprint leaves of its own: those with the same draw the same.
-    pub(super) fn effective(kernel: Kernel, point: &Point<'_>) -> Kernel {
+    pub(super) fn effective(kernel: Estimator, point: &Point<'_>) -> Estimator {
         match kernel {
-            Kernel::ImportanceSampled { taps } => {
-                Kernel::ImportanceSampled { taps: point.footprint_taps(taps) }
+            Estimator::ImportanceSampled { taps } => {
+                Estimator::ImportanceSampled { taps: point.footprint_taps(taps) }
             }
-            Kernel::Separable { taps, rotated } => {
-                Kernel::Separable { taps: point.footprint_taps(taps - 1) + 1, rotated }
+            Estimator::Separable { taps, rotated } => {
+                Estimator::Separable { taps: point.footprint_taps(taps - 1) + 1, rotated }
             }
             // Its window narrows with the taps that are asked for, however many the footprint takes.
-            Kernel::Interleaved { taps } if f64::from(taps) > EVEN_WINDOW_TAPS => {
-                Kernel::Interleaved { taps: taps * PIXELS_OF_BLOCK }
+            Estimator::Interleaved { taps } if f64::from(taps) > EVEN_WINDOW_TAPS => {
+                Estimator::Interleaved { taps: taps * PIXELS_OF_BLOCK }
             }
-            Kernel::Interleaved { taps } => {
-                Kernel::Interleaved { taps: point.footprint_taps(taps * PIXELS_OF_BLOCK) }
+            Estimator::Interleaved { taps } => {
+                Estimator::Interleaved { taps: point.footprint_taps(taps * PIXELS_OF_BLOCK) }
             }
-            Kernel::Dense => Kernel::Dense,
+            Estimator::Dense => Estimator::Dense,
         }
     }
 

@@ -3,7 +3,7 @@
 use crate::curves::NoProfile;
 use crate::diagnostics::Diagnostic;
 use crate::emit::EmitError;
-use crate::kernel::Kernel;
+use subsurface_kernel::Estimator;
 
 use super::request::QualityRequest;
 
@@ -11,7 +11,7 @@ use super::request::QualityRequest;
 #[derive(Clone, Debug)]
 pub(crate) enum Unreachable {
     /// No candidate is within the error: the best of them, and its error.
-    OutOfReach { request: Box<QualityRequest>, best: Kernel, error: f64 },
+    OutOfReach { request: Box<QualityRequest>, best: Estimator, error: f64 },
     /// A material without a profile.
     NoProfile(NoProfile),
 }
@@ -23,16 +23,16 @@ impl From<Unreachable> for Diagnostic {
             Unreachable::NoProfile(error) => return EmitError::NoProfile(error).into(),
         };
         let target = request.quality.target();
-        let who = match request.kernel {
-            Some(kind) => format!("`{}`", kind.kind_name()),
+        let who = match request.estimator {
+            Some(kind) => format!("`{}`", kind.name()),
             None => "no kernel".to_owned(),
         };
-        let verb = if request.kernel.is_some() { "does not reach" } else { "reaches" };
+        let verb = if request.estimator.is_some() { "does not reach" } else { "reaches" };
         let diagnostic = Diagnostic::error(format!("{who} {verb} an error of {target}"))
             .label(request.span, format!("the least is {error}: {best}"))
             .help(format!("ask for `MaxError({error})` or more"));
-        let diagnostic = match request.kernel {
-            Some(Kernel::Interleaved { .. }) | None => diagnostic,
+        let diagnostic = match request.estimator {
+            Some(Estimator::Interleaved { .. }) | None => diagnostic,
             Some(_) => diagnostic.help("or leave `kernel` out, and all kernels are tried"),
         };
         diagnostic.help("`kernel: Dense` is exact, and slow")

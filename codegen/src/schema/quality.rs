@@ -1,13 +1,13 @@
 //! The error that a set allows its kernel.
 
 use crate::diagnostics::Diagnostic;
-use crate::kernel::Kernel;
 use crate::quality::{Quality, QualityRequest, Tier};
 use crate::schema::body::Body;
 use crate::schema::choice::{no_word, unknown_word};
 use crate::schema::decoder::{Decoder, Fields, Given};
 use crate::suggestion::shortened;
 use crate::syntax::{Node, Shape};
+use subsurface_kernel::Estimator;
 
 const WORDS: [&str; 5] = ["MaxError", "Low", "Medium", "High", "Ultra"];
 
@@ -15,15 +15,15 @@ const WORDS: [&str; 5] = ["MaxError", "Low", "Medium", "High", "Ultra"];
 pub(super) fn decode_quality(
     decoder: &mut Decoder,
     fields: &Fields<'_>,
-    kernel: &Given<Kernel>,
+    estimator: &Given<Estimator>,
 ) -> Given<QualityRequest> {
     fields.optional("quality", |node| {
         let quality = decode_value(decoder, node);
         let agrees = fields.get("kernel").is_none_or(|entry| leaves_a_choice(decoder, &entry.value, node));
-        if kernel.is_bad() || !agrees {
+        if estimator.is_bad() || !agrees {
             return None;
         }
-        Some(QualityRequest { quality: quality?, kernel: kernel.value().copied(), span: node.span() })
+        Some(QualityRequest { quality: quality?, estimator: estimator.value().copied(), span: node.span() })
     })
 }
 
@@ -114,17 +114,17 @@ mod tests {
     use crate::schema::set_file::tests::decoded_file;
 
     /// The request of a text, or its first error: message, and the text that it points at.
-    fn decoded(text: &str) -> Result<Option<(Quality, Option<Kernel>)>, [String; 2]> {
+    fn decoded(text: &str) -> Result<Option<(Quality, Option<Estimator>)>, [String; 2]> {
         match decoded_file(text) {
-            Ok(set) => Ok(set.quality.value().map(|request| (request.quality, request.kernel))),
+            Ok(set) => Ok(set.quality.value().map(|request| (request.quality, request.estimator))),
             Err([message, _, place]) => Err([message, place]),
         }
     }
 
     #[test]
     fn errors_and_tiers_can_be_asked_for_of_all_kernels_or_of_one() {
-        let interleaved = Some(Kernel::default());
-        let rotated = Some(Kernel::Separable { taps: Kernel::DEFAULT_TAPS, rotated: true });
+        let interleaved = Some(Estimator::default());
+        let rotated = Some(Estimator::Separable { taps: 17, rotated: true });
         for (text, expected) in [
             ("", None),
             ("quality: MaxError(0.01)", Some((Quality::MaxError(0.01), None))),

@@ -1,9 +1,7 @@
 //! The file that describes the set itself.
 
 use crate::diagnostics::Diagnostic;
-use crate::kernel::Kernel;
 use crate::quality::QualityRequest;
-use crate::rejection::{Rejected, Rejection};
 use crate::schema::body::Body;
 use crate::schema::choice::{choice, no_word, unknown_word};
 use crate::schema::decoder::{Decoder, Given, head};
@@ -12,6 +10,8 @@ use crate::schema::quality::decode_quality;
 use crate::source::Span;
 use crate::suggestion::{list, shortened};
 use crate::syntax::{Document, Node, Shape};
+use subsurface_kernel::Estimator;
+use subsurface_kernel::{Rejected, Rejection};
 
 /// The name that such a file begins with, whatever it is called.
 pub(crate) const SET: &str = "MaterialSet";
@@ -21,7 +21,7 @@ pub(crate) const SET: &str = "MaterialSet";
 pub(crate) struct SetFile {
     /// The word `MaterialSet`.
     pub(crate) head: Span,
-    pub(crate) kernel: Given<Kernel>,
+    pub(crate) estimator: Given<Estimator>,
     pub(crate) rejection: Given<Rejection>,
     pub(crate) quality: Given<QualityRequest>,
 }
@@ -36,13 +36,13 @@ pub(crate) fn decode_set_file(decoder: &mut Decoder, document: &Document<'_>) ->
     let entries = body.fields(decoder, &name, "MaterialSet(kernel: Interleaved(taps: 4))")?;
     check_version(decoder, &entries)?;
     let fields = decoder.fields("`MaterialSet`", name.span.clone(), entries, &FIELDS);
-    let kernel = fields.optional("kernel", |node| decode_kernel(decoder, node));
+    let estimator = fields.optional("kernel", |node| decode_estimator(decoder, node));
     let rejection = fields.optional("rejection", |node| decode_rejection(decoder, node));
-    let quality = decode_quality(decoder, &fields, &kernel);
-    Some(SetFile { head: name.span, kernel, rejection, quality })
+    let quality = decode_quality(decoder, &fields, &estimator);
+    Some(SetFile { head: name.span, estimator, rejection, quality })
 }
 
-fn decode_kernel(decoder: &mut Decoder, node: &Node<'_>) -> Option<Kernel> {
+fn decode_estimator(decoder: &mut Decoder, node: &Node<'_>) -> Option<Estimator> {
     let Some((name, body)) = Body::of(node) else {
         let help = format!("write `kernel: Interleaved(taps: 4)`; the kernels are {}", list(KERNELS));
         no_word(decoder, node, "kernel", "a kernel", &KERNELS, help);
@@ -62,14 +62,14 @@ fn decode_kernel(decoder: &mut Decoder, node: &Node<'_>) -> Option<Kernel> {
     let fields = decoder.fields(owner, name.span.clone(), entries, known);
     let rotated = fields.optional("rotated", |node| decoder.truth(node, "rotated"));
     let with_taps = |taps: u32| match name.text {
-        "ImportanceSampled" => Kernel::ImportanceSampled { taps },
-        "Separable" => Kernel::Separable { taps, rotated: rotated.value().copied().unwrap_or_default() },
-        "Interleaved" => Kernel::Interleaved { taps },
-        _ => Kernel::Dense,
+        "ImportanceSampled" => Estimator::ImportanceSampled { taps },
+        "Separable" => Estimator::Separable { taps, rotated: rotated.value().copied().unwrap_or_default() },
+        "Interleaved" => Estimator::Interleaved { taps },
+        _ => Estimator::Dense,
     };
     let default = match name.text {
-        "Interleaved" => Kernel::DEFAULT_INTERLEAVED_TAPS,
-        _ => Kernel::DEFAULT_TAPS,
+        "Interleaved" => Estimator::default().taps(),
+        _ => 17,
     };
     match fields.optional("taps", |node| decode_taps(decoder, node, with_taps)) {
         Given::Value(kernel) => Some(kernel),
@@ -80,15 +80,19 @@ fn decode_kernel(decoder: &mut Decoder, node: &Node<'_>) -> Option<Kernel> {
 }
 
 /// The kernel with the number of taps that `node` says.
-fn decode_taps(decoder: &mut Decoder, node: &Node<'_>, with_taps: impl Fn(u32) -> Kernel) -> Option<Kernel> {
+fn decode_taps(
+    decoder: &mut Decoder,
+    node: &Node<'_>,
+    with_taps: impl Fn(u32) -> Estimator,
+) -> Option<Estimator> {
     // Only a kernel that has taps comes here.
     let counts = with_taps(1).tap_counts()?;
-    let kind = with_taps(1).kind_name();
+    let kind = with_taps(1).name();
     let help = match with_taps(1) {
-        Kernel::Separable { .. } => {
+        Estimator::Separable { .. } => {
             "one tap is the pixel itself, the others lie in pairs around it; 17 is usual"
         }
-        Kernel::ImportanceSampled { .. } => "17 to 33 are usual",
+        Estimator::ImportanceSampled { .. } => "17 to 33 are usual",
         _ => "4 is the default; neighbours share their taps, so few do",
     };
     let kernel = ron::from_str::<u32>(node.text()).ok().map(with_taps);
@@ -169,39 +173,39 @@ pub(super) mod tests {
     }
 
     /// The choices that a text makes, or its first error.
-    fn decoded(text: &str) -> Result<(Kernel, Rejection), [String; 3]> {
+    fn decoded(text: &str) -> Result<(Estimator, Rejection), [String; 3]> {
         decoded_file(text).map(|set| {
-            let kernel = set.kernel.value().copied().unwrap_or_default();
+            let kernel = set.estimator.value().copied().unwrap_or_default();
             (kernel, set.rejection.value().copied().unwrap_or_default())
         })
     }
 
-    fn kernel(text: &str) -> Result<Kernel, [String; 3]> {
+    fn kernel(text: &str) -> Result<Estimator, [String; 3]> {
         decoded(&format!("MaterialSet(kernel: {text})")).map(|(kernel, _)| kernel)
     }
 
     #[test]
     fn every_kernel_can_be_written() {
         for (text, expected) in [
-            ("ImportanceSampled(taps: 33)", Kernel::ImportanceSampled { taps: 33 }),
-            ("ImportanceSampled", Kernel::ImportanceSampled { taps: 17 }),
-            ("Separable(taps: 11, rotated: true)", Kernel::Separable { taps: 11, rotated: true }),
-            ("Separable(rotated: false)", Kernel::Separable { taps: 17, rotated: false }),
-            ("Separable()", Kernel::Separable { taps: 17, rotated: false }),
-            ("Interleaved(taps: 64)", Kernel::Interleaved { taps: 64 }),
-            ("Interleaved", Kernel::default()),
-            ("Dense", Kernel::Dense),
-            ("Dense()", Kernel::Dense),
+            ("ImportanceSampled(taps: 33)", Estimator::ImportanceSampled { taps: 33 }),
+            ("ImportanceSampled", Estimator::ImportanceSampled { taps: 17 }),
+            ("Separable(taps: 11, rotated: true)", Estimator::Separable { taps: 11, rotated: true }),
+            ("Separable(rotated: false)", Estimator::Separable { taps: 17, rotated: false }),
+            ("Separable()", Estimator::Separable { taps: 17, rotated: false }),
+            ("Interleaved(taps: 64)", Estimator::Interleaved { taps: 64 }),
+            ("Interleaved", Estimator::default()),
+            ("Dense", Estimator::Dense),
+            ("Dense()", Estimator::Dense),
         ] {
             assert_eq!(kernel(text), Ok(expected), "{text}");
         }
         // Whatever kernel there is has a name here.
-        assert!(KERNELS.iter().all(|name| kernel(name).is_ok_and(|kernel| kernel.kind_name() == *name)));
+        assert!(KERNELS.iter().all(|name| kernel(name).is_ok_and(|kernel| kernel.name() == *name)));
     }
 
     #[test]
     fn what_is_not_written_has_its_default() {
-        let defaults = Ok((Kernel::default(), Rejection::default()));
+        let defaults = Ok((Estimator::default(), Rejection::default()));
         for text in ["MaterialSet", "MaterialSet()", "MaterialSet(version: 1)", "MaterialSet(rejection: ())"]
         {
             assert_eq!(decoded(text), defaults, "{text}");
@@ -209,10 +213,10 @@ pub(super) mod tests {
         let some = decoded("MaterialSet(rejection: (by_normal: true, rejected: ReturnedToCentre))");
         let rejected = Rejected::ReturnedToCentre;
         let expected = Rejection { by_normal: true, rejected, ..Rejection::default() };
-        assert_eq!(some, Ok((Kernel::default(), expected)));
+        assert_eq!(some, Ok((Estimator::default(), expected)));
         let none = decoded("MaterialSet(rejection: (by_material: false, by_distance: false))");
         let expected = Rejection { by_material: false, by_distance: false, ..Rejection::default() };
-        assert_eq!(none, Ok((Kernel::default(), expected)));
+        assert_eq!(none, Ok((Estimator::default(), expected)));
     }
 
     #[test]

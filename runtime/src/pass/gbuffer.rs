@@ -6,12 +6,12 @@ use crate::bindings::kernel::{
 use crate::camera::{Bounds, Camera};
 use crate::error::{SizeError, TexelsError};
 use crate::geometry::{Geometry, Object, SurfaceDescriptor};
-use crate::kernel::SubsurfaceKernel;
 use crate::light::{DirectionalLight, LIGHT_CAPACITY};
 use crate::material_table::MaterialTable;
 use crate::pass::cleared;
 use crate::pass::shadow::ShadowPass;
 use crate::target::{Extent, GBuffer, TRANSLUCENT_STENCIL};
+use subsurface_kernel::KernelParts;
 
 /// Camera and lights of one frame.
 #[derive(Clone, Copy, Debug)]
@@ -45,7 +45,7 @@ pub struct GBufferPass {
 impl GBufferPass {
     /// Pipeline and bindings; `kernel` must hold the G-buffer's entry points (it does unless its compiler was told to
     /// leave them out).
-    pub fn new(device: &wgpu::Device, kernel: &SubsurfaceKernel, shadow: &ShadowPass) -> Self {
+    pub fn new(device: &wgpu::Device, kernel: &KernelParts, shadow: &ShadowPass) -> Self {
         let table = MaterialTable::new(device, kernel);
         let frame_layout = GbufferBindGroup2::layout(device, "GBufferPass frame layout");
         let object_layout = BindGroup3::layout(device, "GBufferPass object layout");
@@ -54,7 +54,7 @@ impl GBufferPass {
             bind_group_layouts: &[Some(&table.layout), None, Some(&frame_layout), Some(&object_layout)],
             immediate_size: 0,
         });
-        let module = kernel.shader_module(device);
+        let module = crate::material_table::shader_module(device, kernel);
         let mark = wgpu::StencilFaceState {
             compare: wgpu::CompareFunction::Always,
             fail_op: wgpu::StencilOperation::Keep,

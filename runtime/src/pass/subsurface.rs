@@ -1,22 +1,20 @@
 //! Pass 3: light diffuses under the surface of translucent pixels.
 
 mod compute;
-mod debug_view;
 mod fragment;
 mod intermediate;
 mod path;
 
 use crate::bindings::kernel::{self, BindGroup1, ENTRY_DEBUG_FRAGMENT, ENTRY_SUBSURFACE_VERTEX};
 use crate::error::ResizeError;
-use crate::kernel::SubsurfaceKernel;
 use crate::material_table::MaterialTable;
 use crate::target::{Extent, Target};
 use crate::view::SubsurfaceView;
+use subsurface_kernel::{DebugView, KernelParts};
 
 use compute::{ComputeFrame, ComputePath};
 use fragment::{FragmentFrame, FragmentPath};
 
-pub use debug_view::DebugView;
 pub use path::{Path, PathError};
 
 /// What the pass reads. All views but the scale are of one size.
@@ -43,9 +41,9 @@ pub struct SubsurfaceInputs<'a> {
 /// its kernel was generated for.
 ///
 /// ```no_run
-/// # use subsurface_runtime::{Extent, SubsurfaceInputs, SubsurfaceKernel, SubsurfacePass, SubsurfaceView, wgpu};
+/// # use subsurface_runtime::{Extent, SubsurfaceInputs, KernelParts, SubsurfacePass, SubsurfaceView, wgpu};
 /// # fn frame(
-/// #     device: &wgpu::Device, queue: &wgpu::Queue, encoder: &mut wgpu::CommandEncoder, kernel: &SubsurfaceKernel,
+/// #     device: &wgpu::Device, queue: &wgpu::Queue, encoder: &mut wgpu::CommandEncoder, kernel: &KernelParts,
 /// #     irradiance: &wgpu::TextureView, surface: &wgpu::TextureView, depth: &wgpu::TextureView,
 /// #     projection: [[f32; 4]; 4],
 /// # ) -> Result<(), subsurface_runtime::ResizeError> {
@@ -104,7 +102,7 @@ impl SubsurfacePass {
     /// `format` is the output's; `stencil` the format of [`SubsurfaceInputs::depth_stencil`], if there will be one.
     pub fn new(
         device: &wgpu::Device,
-        kernel: &SubsurfaceKernel,
+        kernel: &KernelParts,
         format: wgpu::TextureFormat,
         stencil: Option<wgpu::TextureFormat>,
     ) -> Self {
@@ -121,7 +119,7 @@ impl SubsurfacePass {
     /// The compute path on a device without compute shaders, or to a format that the kernel's does not write.
     pub fn with_path(
         device: &wgpu::Device,
-        kernel: &SubsurfaceKernel,
+        kernel: &KernelParts,
         format: wgpu::TextureFormat,
         stencil: Option<wgpu::TextureFormat>,
         path: Path,
@@ -134,14 +132,14 @@ impl SubsurfacePass {
 
     fn of_path(
         device: &wgpu::Device,
-        kernel: &SubsurfaceKernel,
+        kernel: &KernelParts,
         format: wgpu::TextureFormat,
         stencil: Option<wgpu::TextureFormat>,
         path: Path,
     ) -> Self {
         let table = MaterialTable::new(device, kernel);
         let layout = BindGroup1::layout(device, "SubsurfacePass layout");
-        let module = kernel.shader_module(device);
+        let module = crate::material_table::shader_module(device, kernel);
         let groups = [&table.layout, &layout];
         let stages = match path {
             Path::Compute => Stages::Compute(ComputePath::new(device, kernel, &module, groups)),
@@ -175,7 +173,7 @@ impl SubsurfacePass {
             layout,
             unit_scale,
             unit_scale_is_filled: false,
-            taps: kernel.taps(),
+            taps: kernel.module().estimator().taps(),
             format,
             has_stencil: stencil.is_some(),
             bound: None,

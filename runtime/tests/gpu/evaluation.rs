@@ -18,7 +18,7 @@ impl Gpu {
         let device = &self.device;
         let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some(entry_point),
-            source: wgpu::ShaderSource::Wgsl(compilation.wgsl.as_str().into()),
+            source: wgpu::ShaderSource::Wgsl(compilation.wgsl().into()),
         });
         let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
             label: Some(entry_point),
@@ -34,12 +34,12 @@ impl Gpu {
         };
         let storage = wgpu::BufferUsages::STORAGE;
         // The rows of a few materials fit what a uniform buffer holds.
-        let table = buffer(&compilation.material_table, wgpu::BufferUsages::UNIFORM);
-        let tables = buffer(&compilation.profile_tables, storage);
+        let table = buffer(&compilation.parts.material_rows(), wgpu::BufferUsages::UNIFORM);
+        let tables = buffer(&compilation.parts.profile_tables(), storage);
         let curves = self.texture(
-            compilation.curve_size,
+            compilation.parts.curve_size(),
             wgpu::TextureFormat::Rgba32Float,
-            &compilation.profile_curves,
+            &compilation.parts.profile_curves(),
         );
         let asked = buffer(bytemuck::cast_slice(queries), storage);
         let empty = vec![0; queries.len() * size_of::<Answer>()];

@@ -4,7 +4,7 @@
 
 mod evaluation;
 
-use subsurface_codegen::{Compilation, Compiler, Kernel, OutputFormat};
+use subsurface_codegen::{Compilation, Compiler, Estimator, OutputFormat};
 use subsurface_profile::{Channel, Medium, Model};
 use subsurface_runtime::{Extent, KernelKind, KernelParts, Readback, SubsurfaceKernel, Target, wgpu};
 
@@ -155,32 +155,6 @@ pub fn model(stem: &str) -> Model {
         let set = loaded.set.unwrap_or_else(|| panic!("{}", loaded.report));
         set.materials[0].profile.model.clone()
     })
-}
-
-/// The kernel of a compilation.
-pub fn kernel(compilation: &Compilation) -> SubsurfaceKernel {
-    SubsurfaceKernel::new(kernel_parts(compilation)).expect("a compilation makes a kernel")
-}
-
-/// What a compilation gives to a kernel.
-pub fn kernel_parts(compilation: &Compilation) -> KernelParts {
-    let kind = match compilation.kernel {
-        Kernel::ImportanceSampled { .. } => KernelKind::ImportanceSampled,
-        Kernel::Separable { .. } => KernelKind::Separable,
-        Kernel::Interleaved { .. } => KernelKind::Interleaved,
-        Kernel::Dense => KernelKind::Dense,
-        unknown => panic!("{unknown} has no kind in the runtime"),
-    };
-    KernelParts {
-        wgsl: compilation.wgsl.clone().into(),
-        material_table: compilation.material_table.clone().into(),
-        material_names: compilation.material_names().into_iter().map(Into::into).collect(),
-        profile_tables: compilation.profile_tables.clone().into(),
-        profile_curves: compilation.profile_curves.clone().into(),
-        curve_size: compilation.curve_size,
-        kind,
-        taps: compilation.kernel.taps(),
-    }
 }
 
 /// One value per pixel, rows from the top.

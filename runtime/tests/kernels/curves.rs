@@ -2,7 +2,7 @@
 
 use crate::gpu::model;
 use crate::setup::{Description, shared_gpu};
-use subsurface_codegen::{Compilation, Kernel, Pass};
+use subsurface_codegen::{Compilation, Estimator, Pass};
 use subsurface_profile::{Channel, EdgeSpread, Medium, RadialProfile};
 
 const CURVES: Pass = Pass { name: "curves", text: include_str!("curves.wgsl"), entry_points: &["curves"] };
@@ -43,7 +43,7 @@ const QUANTILES: [f32; 12] = [0.0, 1e-3, 0.01, 0.05, 0.1, 0.3, 0.5, 0.7, 0.9, 0.
 #[test]
 fn radii_hold_the_light_that_they_are_asked_for() {
     let gpu = shared_gpu();
-    let description = Description::all_profiles(Kernel::default());
+    let description = Description::all_profiles(Estimator::default());
     let mut queries = Vec::new();
     for material in 0..description.stems.len() as u32 {
         for channel in 0..3 {
@@ -88,7 +88,7 @@ fn radii_hold_the_light_that_they_are_asked_for() {
 #[test]
 fn the_slope_is_that_of_the_radius() {
     let gpu = shared_gpu();
-    let description = Description::all_profiles(Kernel::default());
+    let description = Description::all_profiles(Estimator::default());
     // Even steps in u within one piece of the curve: 1 - (1 - t)² with t = (j + s)/64.
     let pieces = [0.5, 20.5, 45.5, 60.5];
     let u_at = |t: f32| 1.0 - (1.0 - t / 64.0).powi(2);
@@ -120,7 +120,7 @@ fn the_slope_is_that_of_the_radius() {
 #[test]
 fn edges_spread_as_the_profiles_say() {
     let gpu = shared_gpu();
-    let description = Description::all_profiles(Kernel::Separable { taps: 17, rotated: false });
+    let description = Description::all_profiles(Estimator::Separable { taps: 17, rotated: false });
     let mut queries = Vec::new();
     let mut expected = Vec::new();
     for (material, stem) in (0..).zip(&description.stems) {

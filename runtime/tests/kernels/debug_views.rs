@@ -2,7 +2,7 @@
 
 use crate::buffers::{Buffers, DISTANCE_MM, noise};
 use crate::setup::{Description, Diffuser, KERNELS, PATHS};
-use subsurface_codegen::Kernel;
+use subsurface_codegen::Estimator;
 use subsurface_runtime::{DebugView, Path, SubsurfaceView};
 
 const SIZE: [u32; 2] = [70, 52];
@@ -105,7 +105,7 @@ fn what_is_rejected_is_drawn_at_the_silhouette() {
 fn the_variance_is_of_light_in_any_unit() {
     let buffers = scene();
     let view = SubsurfaceView::perspective_distances(0.5, SIZE[1]);
-    let mut diffuser = Diffuser::new(&Description::pair(Kernel::default()), Path::Compute);
+    let mut diffuser = Diffuser::new(&Description::pair(Estimator::default()), Path::Compute);
     let plain = diffuser.show(DebugView::Variance, &view, &buffers);
     // Squares of either are no f32. Powers of two change no digit of what is not squared.
     for factor in [2f32.powi(90), 2f32.powi(-70)] {
@@ -133,7 +133,7 @@ fn taps_go_from_none_to_their_largest_number() {
             // Three for white, but for the rounding of two logarithms.
             assert!(none == 0.0 && some > 0.0 && most > 2.999, "{kernel}, {taps} taps: {colours:?}");
             // No other kernel's number grows with the footprint once its budget is reached.
-            assert!(kernel != Kernel::Dense || some < most, "{kernel}: {colours:?}");
+            assert!(kernel != Estimator::Dense || some < most, "{kernel}: {colours:?}");
         }
     }
 }

@@ -3,7 +3,7 @@
 use crate::buffers::{Buffers, DISTANCE_MM};
 use crate::exact::PixelShares;
 use crate::setup::{DEFAULT_STEM, Description, Diffuser, KERNELS, profiles, widest_radius_mm};
-use subsurface_codegen::Kernel;
+use subsurface_codegen::Estimator;
 use subsurface_profile::{EdgeSpread, RadialProfile};
 use subsurface_runtime::{Path, SubsurfaceView};
 
@@ -95,7 +95,7 @@ fn a_step_edge_spreads_as_the_profile_says() {
         let mut all = Errors::default();
         for (material, stem) in (0..).zip(&description.stems) {
             // A sum over all pixels takes long on software drivers.
-            let height = if kernel == Kernel::Dense { 20 } else { 64 };
+            let height = if kernel == Estimator::Dense { 20 } else { 64 };
             let errors = step_errors(&mut Diffuser::new(&description, Path::Compute), material, stem, height);
             println!("{kernel}, {stem}: {errors}");
             all = all.worse(errors);
@@ -111,15 +111,15 @@ fn a_step_edge_spreads_as_the_profile_says() {
 }
 
 /// Bounds of bias and noise, as fractions of the step.
-fn step_bounds(kernel: Kernel) -> (f64, f64) {
+fn step_bounds(kernel: Estimator) -> (f64, f64) {
     match kernel {
         // Radii stand for whole strata of the CDF (1/n of the light each), and taps snap to pixels: half a pixel of the
         // slope at the edge.
-        Kernel::ImportanceSampled { .. } => (0.06, 0.1),
+        Estimator::ImportanceSampled { .. } => (0.06, 0.1),
         // Without noise; strips of light stand in one tap each, which an edge crosses at once.
-        Kernel::Separable { .. } => (0.12, 1e-3),
+        Estimator::Separable { .. } => (0.12, 1e-3),
         // Four taps for the far field of the widest channel; narrow channels find most of their light in the ring.
-        Kernel::Interleaved { .. } => (0.07, 0.04),
+        Estimator::Interleaved { .. } => (0.07, 0.04),
         // Dense: what the frame's border renormalizes.
         _ => (0.02, 5e-3),
     }
@@ -158,17 +158,17 @@ fn footprint_errors(diffuser: &mut Diffuser, taps: u32, pixels: f64) -> Errors {
 #[test]
 fn a_step_edge_at_every_footprint() {
     let mut found = Vec::new();
-    let cases: [(Kernel, &[u32]); 3] = [
-        (Kernel::ImportanceSampled { taps: 17 }, &[17, 33]),
-        (Kernel::Separable { taps: 17, rotated: false }, &[17]),
-        (Kernel::Interleaved { taps: 4 }, &[4, 8, 9]),
+    let cases: [(Estimator, &[u32]); 3] = [
+        (Estimator::ImportanceSampled { taps: 17 }, &[17, 33]),
+        (Estimator::Separable { taps: 17, rotated: false }, &[17]),
+        (Estimator::Interleaved { taps: 4 }, &[4, 8, 9]),
     ];
     for (kernel, counts) in cases {
         let mut diffuser = Diffuser::new(&Description::pair(kernel), Path::Compute);
         for &taps in counts {
             for pixels in [1.0, 2.0, 4.0, 8.0, 16.0] {
                 let errors = footprint_errors(&mut diffuser, taps, pixels);
-                let name = kernel.kind_name();
+                let name = kernel.name();
                 println!("{name}, {taps} taps, mean radius {pixels} px: {errors}");
                 found.push((kernel, taps, pixels, errors));
             }
@@ -182,10 +182,10 @@ fn a_step_edge_at_every_footprint() {
 }
 
 /// Bounds of bias and of the root mean square error, as fractions of the step: those of a column's mean and of pixels.
-fn footprint_bounds(kernel: Kernel, taps: u32) -> (f64, f64) {
+fn footprint_bounds(kernel: Estimator, taps: u32) -> (f64, f64) {
     match (kernel, taps) {
-        (Kernel::ImportanceSampled { .. }, _) => (0.06, 0.04),
-        (Kernel::Separable { .. }, _) => (0.12, 0.04),
+        (Estimator::ImportanceSampled { .. }, _) => (0.06, 0.04),
+        (Estimator::Separable { .. }, _) => (0.12, 0.04),
         (_, 4) => (0.045, 0.02),
         // Noise-free: what is left is the lattice itself, 144 taps that an edge crosses one by one.
         _ => (0.035, 0.01),
@@ -230,7 +230,7 @@ fn a_disc_and_a_line_spread_as_the_sum_over_all_pixels() {
             println!("{kernel}, {name}: worst pixel {worst:.4}, RMS {rms:.4}");
             // As fractions of what is lit. Dense is the same sum, but for its end at a quantile.
             let (bound, rms_bound) = match kernel {
-                Kernel::Dense => (3e-3, 2e-3),
+                Estimator::Dense => (3e-3, 2e-3),
                 _ => (0.25, 0.06),
             };
             assert!(worst < bound && rms < rms_bound, "{kernel}, {name}: worst {worst:.4}, RMS {rms:.4}");
@@ -241,12 +241,12 @@ fn a_disc_and_a_line_spread_as_the_sum_over_all_pixels() {
 #[test]
 fn more_taps_converge() {
     for (kernel, counts) in [
-        (Kernel::ImportanceSampled { taps: 17 }, [8, 32, 256]),
-        (Kernel::Interleaved { taps: 4 }, [2, 8, 64]),
+        (Estimator::ImportanceSampled { taps: 17 }, [8, 32, 256]),
+        (Estimator::Interleaved { taps: 4 }, [2, 8, 64]),
     ] {
         let mut diffuser = Diffuser::new(&Description::pair(kernel), Path::Compute);
         let rms = counts.map(|taps| footprint_errors(&mut diffuser, taps, 8.0).rms);
-        println!("{}: {counts:?} taps have RMS errors of {rms:.4?}", kernel.kind_name());
-        assert!(rms[1] < rms[0] && rms[2] < rms[1], "{}: {rms:?}", kernel.kind_name());
+        println!("{}: {counts:?} taps have RMS errors of {rms:.4?}", kernel.name());
+        assert!(rms[1] < rms[0] && rms[2] < rms[1], "{}: {rms:?}", kernel.name());
     }
 }

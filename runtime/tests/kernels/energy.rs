@@ -2,16 +2,16 @@
 
 use crate::buffers::{Buffers, DISTANCE_MM, noise};
 use crate::setup::{Description, Diffuser, KERNELS};
-use subsurface_codegen::Kernel;
+use subsurface_codegen::Estimator;
 use subsurface_runtime::{Path, SubsurfaceView};
 
 const SIZE: [u32; 2] = [40, 36];
 
 /// Largest relative error of a constant irradiance.
-pub(crate) fn tolerance(kernel: Kernel) -> f32 {
+pub(crate) fn tolerance(kernel: Estimator) -> f32 {
     match kernel {
         // Blocks and packed pixels keep light as numbers of nine bits: half a step is 1e-3 to 2e-3 of the brightest.
-        Kernel::Interleaved { .. } => 2e-3,
+        Estimator::Interleaved { .. } => 2e-3,
         // Rounding of the two sums leaves 1e-6, mantissas of 16 bits between the two passes 1e-5; 1e-3 is the goal.
         _ => 1e-3,
     }
@@ -36,7 +36,7 @@ fn constant_irradiance_stays_constant() {
         let mut diffuser = Diffuser::new(&description, Path::Compute);
         let mut worst = 0.0_f32;
         // A sum over all pixels of all pixels.
-        let size = if kernel == Kernel::Dense { [18, 15] } else { SIZE };
+        let size = if kernel == Estimator::Dense { [18, 15] } else { SIZE };
         for (material, stem) in (0..).zip(description.stems.iter().copied()) {
             for millimetres_per_pixel in [0.02, 0.3, 2.0, 20.0] {
                 let view = SubsurfaceView::orthographic_distances(millimetres_per_pixel);

@@ -3,19 +3,19 @@
 use crate::buffers::Buffers;
 use crate::gpu::{Gpu, kernel, kernel_parts};
 use crate::setup::{Description, Diffuser, KERNELS, shared_gpu};
-use subsurface_codegen::{Compilation, Kernel, OutputFormat};
+use subsurface_codegen::{Compilation, Estimator, OutputFormat};
 use subsurface_runtime::{
     Extent, KernelError, Path, PathError, SubsurfaceInputs, SubsurfaceKernel, SubsurfacePass, SubsurfaceView,
     wgpu,
 };
 
-fn compilation(kernel: Kernel) -> Compilation {
+fn compilation(kernel: Estimator) -> Compilation {
     Description::pair(kernel).compiler().compile().unwrap_or_else(|report| panic!("{report}"))
 }
 
 #[test]
 fn curves_that_are_not_of_their_size_are_refused() {
-    let parts = kernel_parts(&compilation(Kernel::default()));
+    let parts = kernel_parts(&compilation(Estimator::default()));
     let bytes = parts.profile_curves.len();
     let [width, height] = parts.curve_size;
     let refused = |change: &dyn Fn(&mut subsurface_runtime::KernelParts)| {
@@ -63,7 +63,7 @@ fn a_compute_path_to_another_format_is_refused() {
         let own = wgpu::TextureFormat::Rgba32Float;
         assert_eq!(SubsurfacePass::new(&gpu.device, &kernel, own, None).path(), Path::Compute);
     }
-    let half = Description::pair(Kernel::default()).compiler().output_format(OutputFormat::Rgba16Float);
+    let half = Description::pair(Estimator::default()).compiler().output_format(OutputFormat::Rgba16Float);
     let half = kernel(&half.compile().unwrap_or_else(|report| panic!("{report}")));
     assert_eq!(half.compute_format(), Some(wgpu::TextureFormat::Rgba16Float));
 }

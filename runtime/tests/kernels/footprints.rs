@@ -2,7 +2,7 @@
 
 use crate::buffers::{Buffers, noise};
 use crate::setup::{DEFAULT_STEM, Description, Diffuser, KERNELS, PATHS, widest_radius_mm};
-use subsurface_codegen::Kernel;
+use subsurface_codegen::Estimator;
 use subsurface_runtime::{Path, SubsurfaceView};
 
 #[test]
@@ -37,11 +37,11 @@ fn no_taps_and_a_footprint_below_a_pixel_return_the_input() {
 /// Largest change of a pixel between frames whose radii differ by 3 %, of a texture of contrast 1: a filter that widens so
 /// much moves less than 3 % of its light by about its radius. Taps that snap from pixel to pixel add their noise, and with
 /// a tap more all strata move.
-fn bound(kernel: Kernel) -> f64 {
+fn bound(kernel: Estimator) -> f64 {
     match kernel {
         // 17 taps without anything that holds them still.
-        Kernel::ImportanceSampled { .. } => 0.09,
-        Kernel::Separable { .. } => 0.06,
+        Estimator::ImportanceSampled { .. } => 0.09,
+        Estimator::Separable { .. } => 0.06,
         _ => 0.03,
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::buffers::{Buffers, DISTANCE_MM};
 use crate::setup::{Description, Diffuser, KERNELS, PATHS, widest_radius_mm};
-use subsurface_codegen::Kernel;
+use subsurface_codegen::Estimator;
 use subsurface_runtime::{Path, SubsurfaceView};
 
 const SIZE: [u32; 2] = [34, 31];
@@ -112,9 +112,9 @@ fn the_same_material_deep_behind_does_not_bleed() {
         // As fractions of the foreground's light; the background's is 1000 of them.
         let bound = match kernel {
             // Strips know the distance to a line, along which something is always near.
-            Kernel::Separable { .. } => 0.5,
+            Estimator::Separable { .. } => 0.5,
             // Depth takes from a neighbour's share only as r^-2: a step of 100 pixels leaves 1e-4.
-            Kernel::Interleaved { .. } => 0.2,
+            Estimator::Interleaved { .. } => 0.2,
             _ => 2e-3,
         };
         assert!(

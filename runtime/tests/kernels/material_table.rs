@@ -2,7 +2,7 @@
 
 use crate::buffers::{Buffers, noise};
 use crate::setup::{DEFAULT_STEM, Description, Diffuser, PATHS};
-use subsurface_codegen::Kernel;
+use subsurface_codegen::Estimator;
 use subsurface_runtime::SubsurfaceView;
 
 /// Materials whose rows do not fit a uniform buffer: of 64 bytes each at least, 64 KiB in all.
@@ -10,7 +10,7 @@ const MANY: usize = 1024 + 1;
 
 #[test]
 fn a_table_in_a_storage_buffer_gives_the_picture_of_one_in_a_uniform_buffer() {
-    let few = Description::pair(Kernel::ImportanceSampled { taps: 17 });
+    let few = Description::pair(Estimator::ImportanceSampled { taps: 17 });
     let many = Description { stems: vec![DEFAULT_STEM; MANY], ..few.clone() };
     assert!(few.compile().wgsl().contains("var<uniform> material_table:"));
     assert!(many.compile().wgsl().contains("var<storage, read> material_table:"));

@@ -3,7 +3,7 @@
 use crate::buffers::{Buffers, DISTANCE_MM, noise};
 use crate::gpu::Gpu;
 use crate::setup::{Description, Diffuser, KERNELS, PATHS, psnr, shared_gpu};
-use subsurface_codegen::Kernel;
+use subsurface_codegen::Estimator;
 use subsurface_runtime::{Extent, GBuffer, Path, SubsurfaceView, TRANSLUCENT_STENCIL, Target, wgpu};
 
 /// Sides that are multiples of neither a tile nor a block.
@@ -38,7 +38,7 @@ fn compute_and_fragment_give_the_same_picture() {
         assert_eq!((compute.pass().path(), fragment.pass().path()), (Path::Compute, Path::Fragment));
         let mut least = f64::INFINITY;
         // A sum over all pixels takes long on software drivers.
-        let size = if kernel == Kernel::Dense { [25, 21] } else { SIZE };
+        let size = if kernel == Estimator::Dense { [25, 21] } else { SIZE };
         for material in 0..description.stems.len() as u32 {
             let second = (material + 1) % description.stems.len() as u32;
             let buffers = scene(size, material, second);
@@ -165,7 +165,7 @@ fn nothing_of_an_earlier_frame_stays() {
 #[test]
 fn the_frame_index_moves_the_pattern_and_nothing_else_does() {
     let buffers = scene(SIZE, 0, 1);
-    let rotated = Kernel::Separable { taps: 17, rotated: true };
+    let rotated = Estimator::Separable { taps: 17, rotated: true };
     for kernel in KERNELS.into_iter().chain([rotated]) {
         let description = Description::pair(kernel);
         for path in PATHS {
@@ -181,7 +181,7 @@ fn the_frame_index_moves_the_pattern_and_nothing_else_does() {
             );
             // Kernels without a pattern have nothing to move.
             let has_pattern =
-                kernel != Kernel::Dense && kernel != Kernel::Separable { taps: 17, rotated: false };
+                kernel != Estimator::Dense && kernel != Estimator::Separable { taps: 17, rotated: false };
             assert_eq!(moved != still, has_pattern, "{kernel}, {path:?}: frame 5");
             indexed(&mut diffuser, u32::MAX)
                 .iter()
@@ -194,8 +194,8 @@ fn the_frame_index_moves_the_pattern_and_nothing_else_does() {
 #[test]
 fn frames_that_accumulate_lose_noise() {
     let buffers = Buffers::plane([48, 48], 0).lit(|x, y| [noise(x / 4, y / 4, 0); 3]);
-    let exact = Diffuser::new(&Description::pair(Kernel::Dense), Path::Compute).diffuse(&view(), &buffers);
-    for kernel in [Kernel::ImportanceSampled { taps: 17 }, Kernel::Interleaved { taps: 4 }] {
+    let exact = Diffuser::new(&Description::pair(Estimator::Dense), Path::Compute).diffuse(&view(), &buffers);
+    for kernel in [Estimator::ImportanceSampled { taps: 17 }, Estimator::Interleaved { taps: 4 }] {
         let mut diffuser = Diffuser::new(&Description::pair(kernel), Path::Compute);
         let mut sum = vec![[0.0_f32; 4]; exact.len()];
         for index in 0..9 {

@@ -3,7 +3,7 @@
 use crate::buffers::{Buffers, DISTANCE_MM};
 use crate::energy::{deviation, tolerance};
 use crate::setup::{Description, Diffuser, KERNELS};
-use subsurface_codegen::{Kernel, Rejected, Rejection};
+use subsurface_codegen::{Estimator, Rejected, Rejection};
 use subsurface_runtime::{Path, SubsurfaceView};
 
 const SIZE: [u32; 2] = [44, 36];
@@ -15,7 +15,7 @@ fn nothing() -> Rejection {
     Rejection { by_material: false, by_distance: false, by_normal: false, rejected: Rejected::Renormalized }
 }
 
-fn diffuser(kernel: Kernel, rejection: Rejection) -> Diffuser {
+fn diffuser(kernel: Estimator, rejection: Rejection) -> Diffuser {
     Diffuser::new(&Description { rejection, ..Description::pair(kernel) }, Path::Compute)
 }
 
@@ -88,7 +88,7 @@ fn less_light_crosses_a_step_in_depth_that_rejects() {
             last = kept;
         }
         // 30 mm are 23 mean free paths. Separable strips know the distance to a line, which reaches nearer than a point.
-        let bound = if matches!(kernel, Kernel::Separable { .. }) { 0.06 } else { 0.01 };
+        let bound = if matches!(kernel, Estimator::Separable { .. }) { 0.06 } else { 0.01 };
         assert!(last < bound, "{kernel}: {last} pixels' light cross 30 mm");
     }
 }
@@ -152,7 +152,7 @@ fn what_returns_to_the_centre_raises_no_sum() {
             "{kernel}: the sum is {renormalized:.4} of what it was renormalized, {returned:.4} returned"
         );
         // A lattice of few taps reaches a pixel a little more or less often than it is reached from there.
-        let bound = if kernel == Kernel::Dense { 1e-3 } else { 0.07 };
+        let bound = if kernel == Estimator::Dense { 1e-3 } else { 0.07 };
         assert!((returned - 1.0).abs() < bound, "{kernel}: {returned}");
         assert!(renormalized > returned + 0.02, "{kernel}: {renormalized} is not above {returned}");
     }

@@ -4,7 +4,7 @@ use std::sync::{LazyLock, Mutex};
 
 use crate::buffers::Buffers;
 use crate::gpu::{Gpu, kernel, model, stems, table_files};
-use subsurface_codegen::{Compiler, Kernel, OutputFormat, Rejection};
+use subsurface_codegen::{Compiler, Estimator, OutputFormat, Rejection};
 use subsurface_profile::{Channel, Length, Medium, RadialProfile};
 use subsurface_runtime::{
     DebugView, Extent, GBuffer, Path, SubsurfaceInputs, SubsurfaceKernel, SubsurfacePass, SubsurfaceView,
@@ -18,11 +18,11 @@ pub(crate) const SURFACE_ALBEDO: [f64; 3] = [0.8, 0.6, 0.4];
 pub(crate) const DEFAULT_STEM: &str = "two_exponential_dipole_searchlight";
 
 /// Taps of the kernels as their papers use them; the default of the fourth.
-pub(crate) const KERNELS: [Kernel; 4] = [
-    Kernel::ImportanceSampled { taps: 17 },
-    Kernel::Separable { taps: 17, rotated: false },
-    Kernel::Interleaved { taps: 4 },
-    Kernel::Dense,
+pub(crate) const KERNELS: [Estimator; 4] = [
+    Estimator::ImportanceSampled { taps: 17 },
+    Estimator::Separable { taps: 17, rotated: false },
+    Estimator::Interleaved { taps: 4 },
+    Estimator::Dense,
 ];
 
 /// Both paths.
@@ -31,7 +31,7 @@ pub(crate) const PATHS: [Path; 2] = [Path::Compute, Path::Fragment];
 /// What the sets differ by.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Description {
-    pub(crate) kernel: Kernel,
+    pub(crate) kernel: Estimator,
     pub(crate) rejection: Rejection,
     /// Profiles of the materials, whose numbers are their places here; sorted.
     pub(crate) stems: Vec<&'static str>,
@@ -41,7 +41,7 @@ pub(crate) struct Description {
 
 impl Description {
     /// A material of every profile.
-    pub(crate) fn all_profiles(kernel: Kernel) -> Self {
+    pub(crate) fn all_profiles(kernel: Estimator) -> Self {
         let mut stems = stems();
         stems.sort_unstable();
         Self { kernel, rejection: Rejection::default(), stems, length_factor: 1.0 }
@@ -49,7 +49,7 @@ impl Description {
 
     /// The same, or fewer where a software driver would take minutes: a material of every model for sums over all
     /// pixels, whose cost does not depend on a model's coefficients.
-    pub(crate) fn affordable(kernel: Kernel) -> Self {
+    pub(crate) fn affordable(kernel: Estimator) -> Self {
         let every_model = [
             "burley_searchlight",
             "exponential_dipole_searchlight",
@@ -59,13 +59,13 @@ impl Description {
             "two_exponential_dipole_searchlight",
         ];
         let all = Self::all_profiles(kernel);
-        if kernel == Kernel::Dense { Self { stems: every_model.to_vec(), ..all } } else { all }
+        if kernel == Estimator::Dense { Self { stems: every_model.to_vec(), ..all } } else { all }
     }
 
     /// All profiles, or a pair where software drivers compile for half a minute what the other path and the comparison of
     /// both cover.
-    pub(crate) fn on_path(kernel: Kernel, path: Path) -> Self {
-        if (kernel, path) == (Kernel::Dense, Path::Fragment) {
+    pub(crate) fn on_path(kernel: Estimator, path: Path) -> Self {
+        if (kernel, path) == (Estimator::Dense, Path::Fragment) {
             Self::pair(kernel)
         } else {
             Self::all_profiles(kernel)
@@ -73,7 +73,7 @@ impl Description {
     }
 
     /// Two materials of the default profile.
-    pub(crate) fn pair(kernel: Kernel) -> Self {
+    pub(crate) fn pair(kernel: Estimator) -> Self {
         let stems = vec![DEFAULT_STEM; 2];
         Self { kernel, rejection: Rejection::default(), stems, length_factor: 1.0 }
     }

@@ -4,7 +4,7 @@ use crate::buffers::{Buffers, DISTANCE_MM, noise};
 use crate::exact::own_share;
 use crate::gpu::model;
 use crate::setup::{Description, Diffuser, MEAN_FREE_PATH_MM, widest_radius_mm};
-use subsurface_codegen::Kernel;
+use subsurface_codegen::Estimator;
 use subsurface_profile::{Channel, Medium, RadialProfile};
 use subsurface_runtime::{Path, SubsurfaceView};
 
@@ -59,7 +59,7 @@ fn pixel_share(profile: &dyn RadialProfile, [dx, dy]: [f64; 2], depth_mm: f64) -
 
 #[test]
 fn dense_is_the_sum_over_all_pixels() {
-    let description = Description::all_profiles(Kernel::Dense);
+    let description = Description::all_profiles(Estimator::Dense);
     let mut diffuser = Diffuser::new(&description, Path::Compute);
     for (material, stem) in (0..).zip(&description.stems) {
         let other = (material + 1) % description.stems.len() as u32;
@@ -103,7 +103,7 @@ fn dense_is_the_sum_over_all_pixels() {
 fn dense_sums_every_pixel_within_its_largest_radius() {
     const LARGEST: u32 = 120;
     const SIZE: [u32; 2] = [2 * LARGEST + 1; 2];
-    let description = Description::affordable(Kernel::Dense);
+    let description = Description::affordable(Estimator::Dense);
     let mut diffuser = Diffuser::new(&description, Path::Compute);
     for (material, stem) in (0..).zip(&description.stems) {
         // All pixels but the one in the middle have filters of less than a pixel: they send light, and sum none.

@@ -7,9 +7,11 @@ use crate::bindings::kernel::{
     SubsurfaceComputeBindGroup2, WORKGROUP_CLASSIFY_COMPUTE,
 };
 use crate::error::SizeError;
-use crate::kernel::SubsurfaceKernel;
-use crate::kernel_kind::KernelKind;
 use crate::target::{Extent, Target};
+use subsurface_kernel::Estimator;
+use subsurface_kernel::KernelParts;
+
+use crate::kernel_format::texture_format;
 
 use super::intermediate::{Intermediate, intermediates, packed_pixels};
 
@@ -22,7 +24,7 @@ const NO_DISPATCH: [u32; 3] = [0, 0, 1];
 /// Pipelines.
 #[derive(Debug)]
 pub(super) struct ComputePath {
-    kind: KernelKind,
+    kind: Estimator,
     classify: wgpu::ComputePipeline,
     first: Option<wgpu::ComputePipeline>,
     diffuse: wgpu::ComputePipeline,
@@ -45,7 +47,7 @@ pub(super) struct ComputeFrame {
 impl ComputePath {
     pub(super) fn new(
         device: &wgpu::Device,
-        kernel: &SubsurfaceKernel,
+        kernel: &KernelParts,
         module: &wgpu::ShaderModule,
         groups: [&wgpu::BindGroupLayout; 2],
     ) -> Self {
@@ -65,7 +67,7 @@ impl ComputePath {
                 cache: None,
             })
         };
-        let kind = kernel.kind();
+        let kind = kernel.module().estimator();
         let first =
             kind.has_two_stages().then(|| pipeline("SubsurfacePass first stage", ENTRY_FIRST_COMPUTE));
         let no_dispatch = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
@@ -197,7 +199,7 @@ impl ComputePath {
 
 /// The layout of the stages' textures and lists. The bindings know the result's format of a sample; a kernel has its
 /// own.
-fn layout(device: &wgpu::Device, kernel: &SubsurfaceKernel) -> wgpu::BindGroupLayout {
+fn layout(device: &wgpu::Device, kernel: &KernelParts) -> wgpu::BindGroupLayout {
     let mut entries = SubsurfaceComputeBindGroup2::LAYOUT_ENTRIES;
     for entry in &mut entries {
         if let (
@@ -207,7 +209,7 @@ fn layout(device: &wgpu::Device, kernel: &SubsurfaceKernel) -> wgpu::BindGroupLa
                 view_dimension,
             },
             Some(format),
-        ) = (entry.ty, kernel.compute_format())
+        ) = (entry.ty, texture_format(kernel.module().output_format()))
         {
             entry.ty = wgpu::BindingType::StorageTexture { format, access, view_dimension };
         }

@@ -5,17 +5,17 @@ use crate::bindings::kernel::{
     ENTRY_SUBSURFACE_FRAGMENT, ENTRY_SUBSURFACE_VERTEX, SubsurfaceFragmentBindGroup2,
 };
 use crate::error::SizeError;
-use crate::kernel::SubsurfaceKernel;
-use crate::kernel_kind::KernelKind;
 use crate::pass::{cleared, covering_pipeline};
 use crate::target::{Extent, TRANSLUCENT_STENCIL, Target};
+use subsurface_kernel::Estimator;
+use subsurface_kernel::KernelParts;
 
 use super::intermediate::{Intermediate, intermediates, packed_pixels};
 
 /// Pipelines.
 #[derive(Debug)]
 pub(super) struct FragmentPath {
-    kind: KernelKind,
+    kind: Estimator,
     pack: Option<wgpu::RenderPipeline>,
     first: Option<wgpu::RenderPipeline>,
     diffuse: wgpu::RenderPipeline,
@@ -39,7 +39,7 @@ pub(super) struct FragmentFrame {
 impl FragmentPath {
     pub(super) fn new(
         device: &wgpu::Device,
-        kernel: &SubsurfaceKernel,
+        kernel: &KernelParts,
         module: &wgpu::ShaderModule,
         groups: [&wgpu::BindGroupLayout; 2],
         format: wgpu::TextureFormat,
@@ -59,7 +59,7 @@ impl FragmentPath {
                 stencil,
             )
         };
-        let kind = kernel.kind();
+        let kind = kernel.module().estimator();
         let before = |label, entry, targets: &[Intermediate]| {
             let targets: Vec<_> = targets.iter().map(|target| Some(target.format.into())).collect();
             let entries = (ENTRY_SUBSURFACE_VERTEX, entry);

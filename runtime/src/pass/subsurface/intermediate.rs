@@ -1,8 +1,8 @@
 //! What the first stage of a kernel leaves for the second.
 
 use crate::error::SizeError;
-use crate::kernel_kind::KernelKind;
 use crate::target::{Extent, Target};
+use subsurface_kernel::Estimator;
 
 /// A texture between two stages.
 #[derive(Clone, Copy, Debug)]
@@ -37,9 +37,9 @@ impl Intermediate {
 /// The textures of a kernel, in the order in which shaders name them.
 ///
 /// Per pixel of the frame `Interleaved` takes (16 + 8)/4 bytes, and 8 for packed pixels; `Separable` takes 8.
-pub(super) fn intermediates(kind: KernelKind) -> &'static [Intermediate] {
+pub(super) fn intermediates(kind: Estimator) -> &'static [Intermediate] {
     match kind {
-        KernelKind::Interleaved => &[
+        Estimator::Interleaved { .. } => &[
             Intermediate {
                 format: wgpu::TextureFormat::Rgba32Uint,
                 side: 2,
@@ -51,17 +51,17 @@ pub(super) fn intermediates(kind: KernelKind) -> &'static [Intermediate] {
                 label: "SubsurfacePass rings of blocks",
             },
         ],
-        KernelKind::Separable => &[Intermediate {
+        Estimator::Separable { .. } => &[Intermediate {
             format: wgpu::TextureFormat::Rg32Uint,
             side: 1,
             label: "SubsurfacePass first axis",
         }],
-        KernelKind::ImportanceSampled | KernelKind::Dense => &[],
+        Estimator::ImportanceSampled { .. } | Estimator::Dense => &[],
     }
 }
 
 /// The pixels of the inputs as `Interleaved` packs them for its stages; one texel for the others.
-pub(super) fn packed_pixels(kind: KernelKind) -> Intermediate {
+pub(super) fn packed_pixels(kind: Estimator) -> Intermediate {
     let side = if kind.packs_pixels() { 1 } else { 0 };
     Intermediate { format: wgpu::TextureFormat::Rg32Uint, side, label: "SubsurfacePass packed pixels" }
 }

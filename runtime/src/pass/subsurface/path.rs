@@ -1,6 +1,8 @@
 //! Which of a kernel's two forms a device runs.
 
-use crate::kernel::SubsurfaceKernel;
+use subsurface_kernel::{KernelParts, RowBinding};
+
+use crate::kernel_format::texture_format;
 
 /// Which shader stages do the work. Both give the same picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -37,13 +39,14 @@ pub enum PathError {
 /// Whether the compute path of `kernel` runs on the device and writes `format`.
 pub(super) fn check_compute(
     device: &wgpu::Device,
-    kernel: &SubsurfaceKernel,
+    kernel: &KernelParts,
     format: wgpu::TextureFormat,
 ) -> Result<(), PathError> {
     let limits = device.limits();
     // The tiles, the arguments of the dispatch, and what of the kernel's own lies in storage buffers.
-    let storage_buffers =
-        2 + u32::from(!kernel.has_uniform_material_table()) + u32::from(!kernel.profile_tables().is_empty());
+    let storage_buffers = 2
+        + u32::from(kernel.module().row_binding() == RowBinding::Storage)
+        + u32::from(!kernel.profile_tables().is_empty());
     let large_enough = limits.max_compute_invocations_per_workgroup >= 256
         && limits.max_compute_workgroup_size_x >= 16
         && limits.max_compute_workgroup_size_y >= 16
@@ -53,7 +56,7 @@ pub(super) fn check_compute(
     if !large_enough {
         return Err(PathError::NoCompute);
     }
-    let of_kernel = kernel.compute_format();
+    let of_kernel = texture_format(kernel.module().output_format());
     if of_kernel != Some(format) {
         return Err(PathError::Format { kernel: of_kernel, output: format });
     }
