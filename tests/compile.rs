@@ -19,7 +19,7 @@ fn a_set_of_one_model_compiles_to_the_blessed_texts() {
     let compilation = Compiler::from_memory([("skin.ron", skin)]).without_gbuffer().compile();
     let compilation = compilation.unwrap_or_else(|report| panic!("{report}"));
     for (folder, text) in
-        [("wgsl", &compilation.wgsl()), ("rust", &compilation.rust), ("manifest", &compilation.manifest)]
+        [("wgsl", compilation.wgsl()), ("rust", &compilation.rust), ("manifest", &compilation.manifest)]
     {
         // The hash covers every shader and the version: it changes with each, and says nothing new beside the text.
         assert_blessed(folder, "one_model", &text.replace(&compilation.provenance, "<sha256>"));
@@ -41,7 +41,7 @@ fn the_presets_compile_to_the_same_bytes_every_time() {
     let compile = |directory: &str| {
         let result = Compiler::new(directory).compile();
         let compilation = result.unwrap_or_else(|report| panic!("{report}"));
-        (compilation.wgsl(), compilation.rust, compilation.manifest)
+        (compilation.parts, compilation.rust, compilation.manifest)
     };
     let absolute = std::fs::canonicalize("materials").expect("the folder is there");
     let first = compile("materials");
@@ -53,7 +53,10 @@ fn the_presets_compile_to_the_same_bytes_every_time() {
 fn the_generated_table_is_the_one_that_is_uploaded() {
     use subsurface::presets::{MATERIALS, Material, WGSL};
     let compilation = Compiler::new("materials").compile().unwrap_or_else(|report| panic!("{report}"));
-    assert_eq!(subsurface::runtime::bytemuck::cast_slice::<_, u8>(&MATERIALS), compilation.parts.material_rows());
+    assert_eq!(
+        subsurface::runtime::bytemuck::cast_slice::<_, u8>(&MATERIALS),
+        compilation.parts.material_rows()
+    );
     assert_eq!(Material::NAMES.as_slice(), compilation.material_names());
     assert_eq!(WGSL, compilation.wgsl());
     for (number, material) in Material::ALL.into_iter().enumerate() {
@@ -140,10 +143,10 @@ fn a_set_that_asks_for_an_error_states_it() {
     }
     // Again, and the same bytes.
     let again = compile(Compiler::new(directory));
-    assert_eq!((again.wgsl(), again.rust), (compilation.wgsl(), compilation.rust));
+    assert_eq!((&again.parts, &again.rust), (&compilation.parts, &compilation.rust));
     assert_eq!(again.manifest, compilation.manifest);
 
-    // A kernel that the caller names is not searched, and a set that asks for none says nothing of errors.
+    // An estimator that the caller names is not searched, and a set that asks for none says nothing of errors.
     let named = compile(Compiler::new(directory).estimator(Estimator::Dense));
     let without = compile(Compiler::new("tests/in/pass/described_set"));
     for compilation in [named, without] {
@@ -182,11 +185,11 @@ fn a_kernel_with_taps_that_it_cannot_have_is_refused() {
     for (kernel, message) in [
         (
             Estimator::Separable { taps: 16, rotated: false },
-            "error: the kernel `Separable` cannot have 16 taps\n = help: give `Compiler::kernel` an odd number from 3 to 65\n",
+            "error: the estimator `Separable` cannot have 16 taps\n = help: give `Compiler::estimator` an odd number from 3 to 65\n",
         ),
         (
             Estimator::Interleaved { taps: 0 },
-            "error: the kernel `Interleaved` cannot have 0 taps\n = help: give `Compiler::kernel` a whole number from 1 to 64\n",
+            "error: the estimator `Interleaved` cannot have 0 taps\n = help: give `Compiler::estimator` a whole number from 1 to 64\n",
         ),
     ] {
         let compiler = Compiler::from_memory([("skin.ron", skin)]).estimator(kernel);

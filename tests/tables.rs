@@ -247,7 +247,7 @@ fn a_set_of_tables_compiles_to_the_blessed_texts() {
     let compilation = Compiler::new("tests/in/pass/tabulated").without_gbuffer().compile();
     let compilation = compilation.unwrap_or_else(|report| panic!("{report}"));
     for (folder, text) in
-        [("wgsl", &compilation.wgsl()), ("rust", &compilation.rust), ("manifest", &compilation.manifest)]
+        [("wgsl", compilation.wgsl()), ("rust", &compilation.rust), ("manifest", &compilation.manifest)]
     {
         assert_blessed(folder, "tabulated", &text.replace(&compilation.provenance, "<sha256>"));
     }
@@ -261,31 +261,27 @@ fn a_set_of_tables_compiles_to_the_blessed_texts() {
 }
 
 #[test]
-fn a_kernel_has_the_profile_tables_that_its_wgsl_reads_or_is_none() {
-    use subsurface::runtime::{KernelError, KernelKind, KernelParts, SubsurfaceKernel};
-    let kernel = |compilation: &Compilation, profile_tables: &[u8]| {
-        SubsurfaceKernel::new(KernelParts {
-            wgsl: compilation.wgsl().clone().into(),
-            material_table: compilation.parts.material_rows().clone().into(),
-            material_names: compilation.material_names().into_iter().map(Into::into).collect(),
-            profile_tables: profile_tables.to_vec().into(),
-            profile_curves: compilation.parts.profile_curves().clone().into(),
-            curve_size: compilation.parts.curve_size(),
-            kind: KernelKind::Interleaved,
-            taps: compilation.estimator().taps(),
-        })
+fn a_kernel_has_the_profile_tables_that_its_module_reads_or_is_none() {
+    use subsurface::runtime::{KernelParts, PartsError};
+    let parts = |compilation: &Compilation, profile_tables: &[u8]| {
+        let parts = &compilation.parts;
+        KernelParts::builder(parts.module().clone())
+            .materials(
+                compilation.material_names(),
+                parts.material_rows().to_vec(),
+                parts.module().row_stride(),
+            )
+            .profile_curves(parts.profile_curves().to_vec(), parts.curve_size())
+            .profile_tables(profile_tables.to_vec())
+            .build()
     };
     let with = Compiler::new("tests/in/pass/tabulated").compile().unwrap();
     let without = Compiler::new("tests/in/pass/one_model").compile().unwrap();
-    let tables = with.parts.profile_tables().as_slice();
-    assert_eq!(kernel(&with, tables).unwrap().profile_tables(), tables);
-    assert!(kernel(&without, &[]).unwrap().profile_tables().is_empty());
-    let missing = kernel(&with, &[]).unwrap_err();
-    assert_eq!(missing, KernelError::ProfileTables { bytes: 0 });
-    assert!(missing.to_string().contains("reads profile tables, and 0 bytes"), "{missing}");
-    let foreign = kernel(&without, tables).unwrap_err();
-    assert_eq!(foreign, KernelError::ProfileTables { bytes: tables.len() });
-    assert!(foreign.to_string().contains("reads no profile tables"), "{foreign}");
+    let tables = with.parts.profile_tables();
+    assert_eq!(parts(&with, tables).as_ref(), Ok(&with.parts));
+    assert_eq!(parts(&without, &[]).as_ref(), Ok(&without.parts));
+    assert_eq!(parts(&with, &[]), Err(PartsError::ProfileTables { bytes: 0, stride: 20 }));
+    assert_eq!(parts(&without, tables), Err(PartsError::UnreadProfileTables { bytes: tables.len() }));
 }
 
 #[test]
@@ -293,5 +289,5 @@ fn equal_tables_are_stored_once() {
     let csv = "r,r_reflectance\n0,0.1\n1,0.05\n2,0\n";
     let [a, b] = [material("Tabulated(file: \"t.csv\")"), material("Tabulated(file: \"u.csv\")")];
     let files = [("a.ron", a.as_str()), ("b.ron", &b), ("t.csv", csv), ("u.csv", csv)];
-    assert_eq!(Compiler::from_memory(files).compile().unwrap().profile_tables.len(), 3 * 20);
+    assert_eq!(Compiler::from_memory(files).compile().unwrap().parts.profile_tables().len(), 3 * 20);
 }

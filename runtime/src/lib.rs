@@ -44,7 +44,8 @@ pub use pass::subsurface::{Path, PathError, SubsurfaceInputs, SubsurfacePass};
 pub use readback::{Readback, ReadbackError};
 pub use renderer::{Frame, Renderer};
 pub use subsurface_kernel::{
-    DebugView, Estimator, EstimatorError, KernelModule, KernelParts, KernelPartsBuilder, OutputFormat, PartsError, RowBinding,
+    DebugView, Estimator, EstimatorError, KernelModule, KernelParts, KernelPartsBuilder, OutputFormat,
+    PartsError, RowBinding,
 };
 pub use target::{Extent, GBuffer, TRANSLUCENT_STENCIL, Target};
 pub use view::SubsurfaceView;

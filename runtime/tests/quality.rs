@@ -185,7 +185,12 @@ fn a_step_edge_has_the_error_that_is_stated() {
             .map(|phase| Drawn::new(&gpu, &compilation, PICTURES[0], mean, 126, centre(phase)))
             .collect();
         let drawn = error(&pictures, [reach, PERIOD / 2], |x, _| exact[(x + reach) as usize]);
-        assert_near("step edge", compilation.estimator(), drawn, stated(&compilation, "step edge", mean).error);
+        assert_near(
+            "step edge",
+            compilation.estimator(),
+            drawn,
+            stated(&compilation, "step edge", mean).error,
+        );
     }
 }
 

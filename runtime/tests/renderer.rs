@@ -2,10 +2,10 @@
 
 mod gpu;
 
-use gpu::{Gpu, compile, kernel};
+use gpu::{Gpu, compile};
 use subsurface_runtime::{
-    Bounds, Camera, CompositeSettings, DirectionalLight, Extent, Frame, GBuffer, Geometry, Object, Path,
-    Renderer, SubsurfaceInputs, SubsurfaceKernel, SubsurfacePass, SubsurfaceView, SurfaceDescriptor,
+    Bounds, Camera, CompositeSettings, DirectionalLight, Extent, Frame, GBuffer, Geometry, KernelParts,
+    Object, Path, Renderer, SubsurfaceInputs, SubsurfacePass, SubsurfaceView, SurfaceDescriptor,
     TexturePixels, Vertex, wgpu,
 };
 
@@ -51,12 +51,12 @@ fn floor() -> (Vec<Vertex>, Vec<u32>) {
 struct Scene {
     renderer: Renderer,
     objects: Vec<Object>,
-    kernel: SubsurfaceKernel,
+    kernel: KernelParts,
 }
 
 impl Scene {
     fn new(gpu: &Gpu) -> Self {
-        let kernel = kernel(&compile(&[("wax.ron", WAX)]));
+        let kernel = compile(&[("wax.ron", WAX)]).parts;
         let mut renderer = Renderer::new(&gpu.device, &kernel, FORMAT);
         renderer.resize(&gpu.device, SIZE).expect("a small frame");
         let object = |(vertices, indices): (Vec<Vertex>, Vec<u32>), material| {
@@ -173,7 +173,7 @@ fn an_opaque_object_keeps_its_irradiance() {
 
 /// Mean green radiance of a quad that faces the camera, with one normal texel, lit from `towards_light`.
 fn lit_quad(gpu: &Gpu, texel: [u8; 4], towards_light: [f32; 3], material: &SubsurfaceDescription) -> f32 {
-    let kernel = kernel(&compile(&[("plate.ron", &material.text())]));
+    let kernel = compile(&[("plate.ron", &material.text())]).parts;
     let mut renderer = Renderer::new(&gpu.device, &kernel, FORMAT);
     renderer.resize(&gpu.device, SIZE).expect("a small frame");
     // glTF: (0, 0) is the upper left of the image.

@@ -211,7 +211,9 @@ fn ours(chosen: &[Estimator]) -> impl Iterator<Item = Box<dyn Contender>> {
     let mut kernels = if chosen.is_empty() { KernelContender::all() } else { chosen.to_vec() };
     kernels.retain(|kernel| *kernel != YARDSTICK);
     kernels.insert(0, YARDSTICK);
-    kernels.into_iter().map(|kernel| -> Box<dyn Contender> { Box::new(KernelContender { estimator: kernel }) })
+    kernels
+        .into_iter()
+        .map(|kernel| -> Box<dyn Contender> { Box::new(KernelContender { estimator: kernel }) })
 }
 
 /// The inputs, then the scene at its footprints.

@@ -41,7 +41,7 @@ fn optics_of(materials: &[&str]) -> Vec<Optics> {
 
 fn request(quality: Quality, kernel: Option<Estimator>) -> QualityRequest {
     let file = SourceMap::new().add("set.ron", "");
-    QualityRequest { quality, kernel, span: Span::new(file, 0..0) }
+    QualityRequest { quality, estimator: kernel, span: Span::new(file, 0..0) }
 }
 
 fn solved(materials: &[&str], quality: Quality, kernel: Option<Estimator>) -> QualityReport {

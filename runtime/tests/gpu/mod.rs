@@ -4,9 +4,9 @@
 
 mod evaluation;
 
-use subsurface_codegen::{Compilation, Compiler, Estimator, OutputFormat};
+use subsurface_codegen::{Compilation, Compiler, OutputFormat};
 use subsurface_profile::{Channel, Medium, Model};
-use subsurface_runtime::{Extent, KernelKind, KernelParts, Readback, SubsurfaceKernel, Target, wgpu};
+use subsurface_runtime::{Extent, Readback, Target, wgpu};
 
 /// A device and its queue.
 pub struct Gpu {

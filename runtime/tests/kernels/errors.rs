@@ -1,55 +1,21 @@
 //! What is refused, and in which words.
 
 use crate::buffers::Buffers;
-use crate::gpu::{Gpu, kernel, kernel_parts};
+use crate::gpu::Gpu;
 use crate::setup::{Description, Diffuser, KERNELS, shared_gpu};
 use subsurface_codegen::{Compilation, Estimator, OutputFormat};
-use subsurface_runtime::{
-    Extent, KernelError, Path, PathError, SubsurfaceInputs, SubsurfaceKernel, SubsurfacePass, SubsurfaceView,
-    wgpu,
-};
+use subsurface_runtime::{Extent, Path, PathError, SubsurfaceInputs, SubsurfacePass, SubsurfaceView, wgpu};
 
 fn compilation(kernel: Estimator) -> Compilation {
     Description::pair(kernel).compiler().compile().unwrap_or_else(|report| panic!("{report}"))
 }
 
 #[test]
-fn curves_that_are_not_of_their_size_are_refused() {
-    let parts = kernel_parts(&compilation(Estimator::default()));
-    let bytes = parts.profile_curves.len();
-    let [width, height] = parts.curve_size;
-    let refused = |change: &dyn Fn(&mut subsurface_runtime::KernelParts)| {
-        let mut parts = parts.clone();
-        change(&mut parts);
-        SubsurfaceKernel::new(parts).expect_err("curves of another size")
-    };
-    let error = refused(&|parts| parts.profile_curves.to_mut().truncate(bytes - 16));
-    let expected = KernelError::ProfileCurves { width, height, bytes: bytes - 16 };
-    assert_eq!(error, expected);
-    assert_eq!(
-        error.to_string(),
-        format!(
-            "curves of {width}×{height} texels take 16 bytes each, not {} in all: give curves and size of one \
-             compilation",
-            bytes - 16
-        )
-    );
-    assert!(matches!(
-        refused(&|parts| parts.profile_curves.to_mut().clear()),
-        KernelError::ProfileCurves { .. }
-    ));
-    let nothing = refused(&|parts| (parts.curve_size, parts.profile_curves) = ([0; 2], Vec::new().into()));
-    assert!(matches!(nothing, KernelError::ProfileCurves { bytes: 0, .. }), "{nothing}");
-    let overflow = refused(&|parts| parts.curve_size = [u32::MAX; 2]);
-    assert!(matches!(overflow, KernelError::ProfileCurves { .. }), "{overflow}");
-}
-
-#[test]
 fn a_compute_path_to_another_format_is_refused() {
     let gpu = shared_gpu();
     for chosen in KERNELS {
-        let kernel = kernel(&compilation(chosen));
-        assert_eq!(kernel.compute_format(), Some(wgpu::TextureFormat::Rgba32Float));
+        let kernel = compilation(chosen).parts;
+        assert_eq!(kernel.module().output_format(), OutputFormat::Rgba32Float);
         let format = wgpu::TextureFormat::Rgba16Float;
         let error = SubsurfacePass::with_path(&gpu.device, &kernel, format, None, Path::Compute)
             .expect_err("another format");
@@ -64,7 +30,7 @@ fn a_compute_path_to_another_format_is_refused() {
         assert_eq!(SubsurfacePass::new(&gpu.device, &kernel, own, None).path(), Path::Compute);
     }
     let half = Description::pair(Estimator::default()).compiler().output_format(OutputFormat::Rgba16Float);
-    let half = kernel(&half.compile().unwrap_or_else(|report| panic!("{report}")));
+    let half = half.compile().unwrap_or_else(|report| panic!("{report}")).parts;
     assert_eq!(half.compute_format(), Some(wgpu::TextureFormat::Rgba16Float));
 }
 

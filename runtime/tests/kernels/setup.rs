@@ -3,12 +3,11 @@
 use std::sync::{LazyLock, Mutex};
 
 use crate::buffers::Buffers;
-use crate::gpu::{Gpu, kernel, model, stems, table_files};
+use crate::gpu::{Gpu, model, stems, table_files};
 use subsurface_codegen::{Compiler, Estimator, OutputFormat, Rejection};
 use subsurface_profile::{Channel, Length, Medium, RadialProfile};
 use subsurface_runtime::{
-    DebugView, Extent, GBuffer, Path, SubsurfaceInputs, SubsurfaceKernel, SubsurfacePass, SubsurfaceView,
-    wgpu,
+    DebugView, Extent, GBuffer, KernelParts, Path, SubsurfaceInputs, SubsurfacePass, SubsurfaceView, wgpu,
 };
 
 pub(crate) const MEAN_FREE_PATH_MM: [f64; 3] = [1.3, 0.95, 0.67];
@@ -86,14 +85,14 @@ impl Description {
             (format!("material_{number:02}.ron"), material(stem, factor))
         });
         Compiler::from_memory(materials.chain(table_files()))
-            .kernel(self.kernel)
+            .estimator(self.kernel)
             .rejection(self.rejection)
             .output_format(OutputFormat::Rgba32Float)
     }
 
     /// The kernel of the set; each is compiled once in the test program.
-    pub(crate) fn compile(&self) -> &'static SubsurfaceKernel {
-        static COMPILED: LazyLock<Mutex<Vec<(Description, &'static SubsurfaceKernel)>>> =
+    pub(crate) fn compile(&self) -> &'static KernelParts {
+        static COMPILED: LazyLock<Mutex<Vec<(Description, &'static KernelParts)>>> =
             LazyLock::new(Mutex::default);
         // A test that failed while it compiled leaves a list that still holds.
         let mut compiled = COMPILED.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
@@ -101,7 +100,7 @@ impl Description {
             return known;
         }
         let compilation = self.compiler().compile().unwrap_or_else(|report| panic!("{report}"));
-        let made: &'static SubsurfaceKernel = Box::leak(Box::new(kernel(&compilation)));
+        let made: &'static KernelParts = Box::leak(Box::new(compilation.parts));
         compiled.push((self.clone(), made));
         made
     }
