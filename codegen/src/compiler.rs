@@ -12,7 +12,6 @@ use proc_macro2::TokenStream;
 use quote::quote;
 use sha2::{Digest, Sha256};
 use subsurface_kernel::{Estimator, KernelModule as ModuleParts, KernelParts, OutputFormat, Rejection};
-use subsurface_shaders::{KERNELS, LIBRARY, PASSES, PROFILES};
 
 use crate::bindings::{self, Paths, SetBindings};
 use crate::diagnostics::{Diagnostic, Report};
@@ -356,7 +355,7 @@ impl Compiler {
             }
         };
         add("subsurface-codegen", env!("CARGO_PKG_VERSION").as_bytes());
-        for module in LIBRARY.iter().chain(PROFILES).chain(KERNELS).chain(PASSES) {
+        for module in subsurface_shaders::modules() {
             add(module.name, module.text.as_bytes());
         }
         for pass in &self.passes {

@@ -1,4 +1,10 @@
-//! Links WGSL modules into one text: what the roots reach is kept, as written; the rest is dropped.
+//! Links WGSL files into one text: what the roots reach is kept, as written; the rest is dropped.
+//!
+//! Entry points come first. Below them a file comes after those that it uses, as its header says; the headers are checked,
+//! and are no part of the text.
+
+mod header;
+mod order;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
@@ -8,6 +14,8 @@ use subsurface_shaders::Module;
 use crate::docs::Docs;
 use crate::item::{Item, Items, items};
 use crate::source::Span;
+
+use order::{Declared, Kind, Part, order, split_glue};
 
 /// Declarations that the emitter wrote for one material set, and where in the RON they came from.
 #[derive(Debug, Default)]
@@ -24,13 +32,14 @@ pub(crate) struct Glue {
 #[derive(Debug)]
 pub(crate) struct Linked {
     pub(crate) text: String,
-    /// Ranges of `text` that spell a value of a material file, sorted and disjoint.
+    /// Ranges of `text` that spell a value of a material file; they are disjoint.
     origins: Vec<(Range<usize>, Span)>,
     /// The range of `text` that spells the format of the compute path's output.
     pub(crate) output_format: Option<Range<usize>>,
     /// Doc comments of what was kept.
     pub(crate) docs: Docs,
-    /// Names of the modules that contributed, in the order of the text, and where their part starts.
+    /// Names of the files that contributed, in the order of the text, and where their part starts. One with entry points
+    /// may have two parts.
     pub(crate) modules: Vec<(usize, String)>,
     /// The module that declares each name that was kept.
     pub(crate) module_of: BTreeMap<String, String>,
@@ -51,63 +60,154 @@ impl Linked {
     }
 }
 
-/// Why modules cannot be linked. All are defects of the shaders, not of a material.
+/// The files to link. No name may stand in two of them.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Files<'a> {
+    /// Files of the house that are linked where another uses them.
+    pub(crate) rooms: &'a [Module],
+    /// Passes of the house, in the order in which the text has them: the first ones declare what later ones' files need.
+    pub(crate) passes: &'a [Module],
+    /// Passes of the caller's own. They may use any file, and bear no header.
+    pub(crate) guests: &'a [Module],
+}
+
+/// Why files cannot be linked. All but those of a caller's own pass are defects of the shaders.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub(crate) enum LinkError {
     /// A declaration does not end.
     #[error("a declaration of {module} does not end (byte {offset})")]
     Unfinished {
-        /// The module's name.
+        /// The file's name.
         module: String,
         /// Where the declaration starts.
         offset: usize,
     },
-    /// Two modules declare one name.
+    /// Two files declare one name.
     #[error("{name} is declared by {first} and by {second}")]
     DeclaredTwice {
         /// The name.
         name: String,
-        /// The first module.
+        /// The first file.
         first: String,
-        /// The second module.
+        /// The second file.
         second: String,
     },
-    /// No module declares a root.
+    /// No file declares a root.
     #[error("no module declares the entry point {name}")]
     NoSuchRoot {
         /// The name.
         name: String,
+    },
+    /// A first line that begins as a header and is none.
+    #[error("{file}: `{line}` is no header; write `// uses: lib/angle, gather/point; needs: input_pixel`")]
+    Header {
+        /// The file.
+        file: String,
+        /// Its first line.
+        line: String,
+    },
+    /// A file uses what its header does not name.
+    #[error("{file} uses {name}, which {declared_by} declares: name {declared_by} in its header")]
+    Unnamed {
+        /// The file.
+        file: String,
+        /// The name.
+        name: String,
+        /// The file that the header must name.
+        declared_by: String,
+    },
+    /// A header names what the file does not use.
+    #[error("{file} uses nothing of {entry}: leave it out of its header")]
+    Unneeded {
+        /// The file.
+        file: String,
+        /// What the header names.
+        entry: String,
+    },
+    /// A header names a file that is not there.
+    #[error("{file} uses {used}, and there is no such file")]
+    NoSuchFile {
+        /// The file.
+        file: String,
+        /// What its header names.
+        used: String,
+    },
+    /// A header says that a name is left open which a file declares.
+    #[error(
+        "{file} needs {name}, which {declared_by} declares: it is not open, so name {declared_by} under `uses`"
+    )]
+    NotOpen {
+        /// The file.
+        file: String,
+        /// The name.
+        name: String,
+        /// The file that declares it.
+        declared_by: String,
+    },
+    /// Neither a pass nor the material set declares what a file leaves open.
+    #[error("{file} needs {name}, and no pass declares it")]
+    Open {
+        /// The file.
+        file: String,
+        /// The name.
+        name: String,
+    },
+    /// Files use each other.
+    #[error("files use each other in a circle: {circle}")]
+    Circle {
+        /// The files, from one to itself.
+        circle: String,
+    },
+    /// A pass of the caller's declares what a file means a built-in by.
+    #[error("the pass {declared_by} declares {name}, which {file} uses as a built-in: rename it")]
+    OfAGuest {
+        /// The file.
+        file: String,
+        /// The name.
+        name: String,
+        /// The caller's pass.
+        declared_by: String,
     },
 }
 
 /// Name of the part that the emitter wrote.
 pub(crate) const GLUE: &str = "the material set";
 
-/// Links `modules` and `glue`: keeps what the `roots` reach, module by module in the given order, glue first.
-pub(crate) fn link(
-    modules: &[Module],
-    glue: &Glue,
-    roots: &[&str],
-    header: &str,
-) -> Result<Linked, LinkError> {
-    let mut parts: Vec<(&str, Items<'_>)> = Vec::with_capacity(modules.len() + 1);
-    let sources = std::iter::once((GLUE, glue.text.as_str())).chain(modules.iter().map(|m| (m.name, m.text)));
-    for (name, text) in sources {
-        let items =
-            items(text).map_err(|offset| LinkError::Unfinished { module: name.to_owned(), offset })?;
-        parts.push((name, items));
-    }
+/// Titles of its two parts: what refers to no file, and what does.
+const GLUE_TITLES: [&str; 2] = ["the material set: choices", "the material set: materials"];
 
-    let mut declared: BTreeMap<&str, (&str, &Item<'_>)> = BTreeMap::new();
-    for (module, part) in &parts {
+/// Links `files` and `glue`: keeps what the `roots` reach. Roots come first, then the rest, each part after those that
+/// it uses.
+pub(crate) fn link(files: Files<'_>, glue: &Glue, roots: &[&str], header: &str) -> Result<Linked, LinkError> {
+    let parts = parts(files, glue)?;
+    let mut declared: Declared<'_, '_> = BTreeMap::new();
+    for (index, part) in parts.iter().enumerate() {
         for item in &part.items {
-            if let Some((first, _)) = declared.insert(item.name, (module, item)) {
-                let (name, first, second) = (item.name.to_owned(), first.to_owned(), (*module).to_owned());
-                return Err(LinkError::DeclaredTwice { name, first, second });
+            if let Some((first, _)) = declared.insert(item.name, (index, item)) {
+                let (first, second) = (parts[first].name.to_owned(), part.name.to_owned());
+                return Err(LinkError::DeclaredTwice { name: item.name.to_owned(), first, second });
             }
         }
     }
     let reached = reach(&declared, roots)?;
+    // The choices of the set stand above all else. Its second part is where files use it, or last.
+    let is_start = |&index: &usize| {
+        matches!(parts[index].kind, Kind::Pass | Kind::Guest)
+            || parts[index].items.iter().any(|item| roots.contains(&item.name))
+    };
+    let files = (GLUE_TITLES.len()..parts.len()).filter(is_start);
+    let starts: Vec<usize> = std::iter::once(0).chain(files).chain([1]).collect();
+    let order = order(&parts, &declared, &starts)?;
+    for part in order.iter().map(|&index| &parts[index]) {
+        let is_open = |name: &&&str| !declared.contains_key(**name);
+        let kept = part.items.iter().filter(|item| reached.contains(item.name));
+        let open = |item: &Item<'_>| {
+            part.header.needs.iter().filter(is_open).find(|name| item.references.contains(**name)).copied()
+        };
+        if let Some(name) = kept.into_iter().find_map(open) {
+            return Err(LinkError::Open { file: part.name.to_owned(), name: name.to_owned() });
+        }
+    }
 
     let mut linked = Linked {
         text: header.to_owned(),
@@ -117,32 +217,74 @@ pub(crate) fn link(
         modules: Vec::new(),
         module_of: BTreeMap::new(),
     };
-    for (module, part) in &parts {
-        let kept: Vec<_> = part.items.iter().filter(|item| reached.contains(item.name)).collect();
-        if kept.is_empty() {
-            continue;
-        }
-        linked.modules.push((linked.text.len(), (*module).to_owned()));
-        linked.text.push_str(&format!("\n// ── {module} ──\n"));
-        if !part.preamble.is_empty() {
-            linked.text.push_str(part.preamble);
-            linked.text.push('\n');
-        }
-        for item in kept {
-            linked.text.push('\n');
-            linked.docs.add(item);
-            linked.module_of.insert(item.name.to_owned(), (*module).to_owned());
-            if *module == GLUE {
-                linked.keep_origins(glue, item);
-            }
-            linked.text.push_str(item.text);
-            linked.text.push('\n');
+    let mut begun = BTreeSet::new();
+    let in_entries = starts.iter().map(|&index| (index, true));
+    for (index, is_root) in in_entries.chain(order.iter().map(|&index| (index, false))) {
+        let part = &parts[index];
+        let is_kept = |item: &&Item<'_>| reached.contains(item.name) && roots.contains(&item.name) == is_root;
+        let kept: Vec<_> = part.items.iter().filter(is_kept).collect();
+        if !kept.is_empty() {
+            linked.append(part, &kept, begun.insert(index), glue);
         }
     }
     Ok(linked)
 }
 
+/// All parts: both of the glue, then the files.
+fn parts<'a>(files: Files<'a>, glue: &'a Glue) -> Result<Vec<Part<'a>>, LinkError> {
+    let mut parts = Vec::new();
+    for (kind, modules) in
+        [(Kind::Room, files.rooms), (Kind::Pass, files.passes), (Kind::Guest, files.guests)]
+    {
+        for module in modules {
+            parts.push(part(kind, module.name, module.text)?);
+        }
+    }
+    let of_files: BTreeSet<&str> = parts.iter().flat_map(|part| &part.items).map(|item| item.name).collect();
+    let Part { items, .. } = part(Kind::MaterialSet, GLUE, &glue.text)?;
+    let (choices, materials) = split_glue(items, &of_files);
+    let of_set = [choices, materials].into_iter().zip(GLUE_TITLES).map(|(items, title)| {
+        let header = header::Header::default();
+        Part { kind: Kind::MaterialSet, name: GLUE, title, header, preamble: "", items }
+    });
+    Ok(of_set.chain(parts).collect())
+}
+
+/// Reads one text.
+fn part<'a>(kind: Kind, name: &'a str, text: &'a str) -> Result<Part<'a>, LinkError> {
+    let (header, below) = match kind {
+        Kind::Room | Kind::Pass => header::split(text)
+            .map_err(|line| LinkError::Header { file: name.to_owned(), line: line.to_owned() })?,
+        Kind::MaterialSet | Kind::Guest => (header::Header::default(), text),
+    };
+    let Items { preamble, items } = items(below).map_err(|offset| LinkError::Unfinished {
+        module: name.to_owned(),
+        offset: offset + text.len() - below.len(),
+    })?;
+    Ok(Part { kind, name, title: name, header, preamble, items })
+}
+
 impl Linked {
+    /// Adds `items` of `part`, below its comments if it begins with them.
+    fn append(&mut self, part: &Part<'_>, items: &[&Item<'_>], begins: bool, glue: &Glue) {
+        self.modules.push((self.text.len(), part.name.to_owned()));
+        self.text.push_str(&format!("\n// ── {} ──\n", part.title));
+        if begins && !part.preamble.is_empty() {
+            self.text.push_str(part.preamble);
+            self.text.push('\n');
+        }
+        for item in items {
+            self.text.push('\n');
+            self.docs.add(item);
+            self.module_of.insert(item.name.to_owned(), part.name.to_owned());
+            if part.kind == Kind::MaterialSet {
+                self.keep_origins(glue, item);
+            }
+            self.text.push_str(item.text);
+            self.text.push('\n');
+        }
+    }
+
     /// Moves the origins inside `item` to where its text is about to stand.
     fn keep_origins(&mut self, glue: &Glue, item: &Item<'_>) {
         let start = item.text.as_ptr() as usize - glue.text.as_ptr() as usize;
@@ -162,10 +304,7 @@ impl Linked {
 }
 
 /// Names of all declarations that the roots reach.
-fn reach<'a>(
-    declared: &BTreeMap<&'a str, (&str, &Item<'a>)>,
-    roots: &[&str],
-) -> Result<BTreeSet<&'a str>, LinkError> {
+fn reach<'a>(declared: &Declared<'_, 'a>, roots: &[&str]) -> Result<BTreeSet<&'a str>, LinkError> {
     let mut reached = BTreeSet::new();
     let mut open = Vec::new();
     for root in roots {
@@ -182,53 +321,4 @@ fn reach<'a>(
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    const LIBRARY: &[Module] = &[
-        Module {
-            name: "a",
-            text: "// About a.\n\nfn used() -> f32 { return LIMIT; }\n\nfn unused() { used(); }\n",
-        },
-        Module { name: "b", text: "const LIMIT = 1.0;\n" },
-        Module { name: "c", text: "fn never() {}\n" },
-    ];
-
-    #[test]
-    fn keeps_what_the_root_reaches_and_nothing_else() {
-        let glue = Glue { text: "fn root() { used(); }\n".to_owned(), ..Default::default() };
-        let linked = link(LIBRARY, &glue, &["root"], "// head\n").expect("links");
-        assert!(linked.text.starts_with("// head\n"));
-        assert!(linked.text.contains("// About a.") && linked.text.contains("LIMIT = 1.0"));
-        assert!(!linked.text.contains("unused") && !linked.text.contains("never"));
-        assert_eq!(
-            linked.modules.iter().map(|(_, name)| name.as_str()).collect::<Vec<_>>(),
-            ["the material set", "a", "b"]
-        );
-        assert_eq!(linked.module_at(linked.text.len() - 1), Some("b"));
-    }
-
-    #[test]
-    fn a_name_declared_twice_is_an_error() {
-        let glue = Glue { text: "const LIMIT = 2.0;".to_owned(), ..Default::default() };
-        let error = link(LIBRARY, &glue, &["LIMIT"], "").expect_err("LIMIT stands twice");
-        assert_eq!(error.to_string(), "LIMIT is declared by the material set and by b");
-    }
-
-    #[test]
-    fn origins_follow_their_text() {
-        let mut sources = crate::source::SourceMap::new();
-        let file = sources.add("m.ron", "value");
-        let text = "fn dropped() {}\n\nconst KEPT = 42.0;\n";
-        let at = text.find("42.0").expect("it is there");
-        let glue = Glue {
-            text: text.to_owned(),
-            origins: vec![(at..at + 4, Span::new(file, 0..5))],
-            ..Default::default()
-        };
-        let linked = link(&[], &glue, &["KEPT"], "// head\n").expect("links");
-        let moved = linked.text.find("42.0").expect("it is there");
-        assert_eq!(linked.origin(&(moved + 1..moved + 2)), Some(&Span::new(file, 0..5)));
-        assert_eq!(linked.origin(&(0..1)), None);
-    }
-}
+mod tests;

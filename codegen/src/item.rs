@@ -11,7 +11,8 @@ pub(crate) struct Item<'a> {
     pub(crate) name: &'a str,
     /// The declaration from its first comment to its last character, without the final line break.
     pub(crate) text: &'a str,
-    /// Every identifier in it but its own name and what follows a `.`: a superset of the globals it refers to.
+    /// The names that it refers to: built-in ones and those of other declarations. Its own name, members, parameters and
+    /// locals are none.
     pub(crate) references: BTreeSet<&'a str>,
 }
 
@@ -110,9 +111,8 @@ impl<'a> Scanner<'a> {
     fn declaration(&mut self, start: usize) -> Option<Item<'a>> {
         let mut keyword = None;
         let mut name = None;
-        let mut references = BTreeSet::new();
-        let mut after_dot = false;
-        let mut after_at = false;
+        let mut names = Names::default();
+        let mut before = Token::Comment;
         let mut parentheses = 0usize;
         let mut angles = 0usize;
         let mut braces = 0usize;
@@ -123,13 +123,15 @@ impl<'a> Scanner<'a> {
                 Token::Comment => continue,
                 Token::Word(word) => {
                     if keyword.is_none() && parentheses == 0 {
-                        if !after_at {
+                        if before != Token::Symbol(b'@') {
                             keyword = Some(word);
                         }
                     } else if keyword.is_some() && name.is_none() && parentheses == 0 && angles == 0 {
                         name = Some(word);
-                    } else if !after_dot && word.starts_with(|c: char| c.is_alphabetic() || c == '_') {
-                        references.insert(word);
+                    } else {
+                        let is_member = keyword == Some("struct") && braces == 1;
+                        let is_parameter = keyword == Some("fn") && braces == 0 && name.is_some();
+                        names.word(word, before, self.next_symbol(), is_member || is_parameter);
                     }
                 }
                 Token::Symbol(b'(') => parentheses += 1,
@@ -137,22 +139,89 @@ impl<'a> Scanner<'a> {
                 // `var<storage, read> name`: the only angle brackets before a name.
                 Token::Symbol(b'<') if name.is_none() => angles += 1,
                 Token::Symbol(b'>') if name.is_none() => angles = angles.saturating_sub(1),
-                Token::Symbol(b'{') => braces += 1,
+                Token::Symbol(b'{') => {
+                    braces += 1;
+                    names.open();
+                }
                 Token::Symbol(b'}') => {
                     braces = braces.checked_sub(1)?;
+                    names.close();
                     if braces == 0 {
                         break;
                     }
                 }
                 Token::Symbol(b';') if braces == 0 => break,
+                Token::Symbol(b';') => names.end_statement(),
                 Token::Symbol(_) => {}
             }
-            after_dot = token == Token::Symbol(b'.');
-            after_at = token == Token::Symbol(b'@');
+            before = token;
         }
         let name = name?;
+        let mut references = names.references;
         references.remove(name);
         Some(Item { name, text: &self.text[start..self.position], references })
+    }
+
+    /// The symbol at the position, past blanks.
+    fn next_symbol(&self) -> Option<u8> {
+        self.text[self.position..].trim_start().bytes().next()
+    }
+}
+
+/// Names inside a declaration: those of its own, scope by scope, and those of other declarations.
+#[derive(Default)]
+struct Names<'a> {
+    references: BTreeSet<&'a str>,
+    /// Parameters, then the local names of each open block.
+    scopes: Vec<Vec<&'a str>>,
+    /// A local whose statement has not ended: its own value does not see it.
+    declared: Option<&'a str>,
+    /// Whether the next word names a local.
+    declares: bool,
+}
+
+impl<'a> Names<'a> {
+    /// Takes `word` in, which stands between `before` and `after`. In front of a colon it may be the name of a member or
+    /// of a parameter.
+    fn word(&mut self, word: &'a str, before: Token<'_>, after: Option<u8>, may_be_declared: bool) {
+        if matches!(before, Token::Symbol(b'.' | b'@'))
+            || !word.starts_with(|c: char| c.is_alphabetic() || c == '_')
+        {
+            return;
+        }
+        if may_be_declared && after == Some(b':') {
+            self.declare(word);
+        } else if matches!(word, "let" | "var" | "const") {
+            self.declares = true;
+        } else if std::mem::take(&mut self.declares) {
+            self.declared = Some(word);
+        } else if after == Some(b'(') || !self.scopes.iter().flatten().any(|local| *local == word) {
+            // What is called is no local.
+            self.references.insert(word);
+        }
+    }
+
+    fn declare(&mut self, name: &'a str) {
+        if self.scopes.is_empty() {
+            self.scopes.push(Vec::new());
+        }
+        self.scopes.last_mut().into_iter().for_each(|scope| scope.push(name));
+    }
+
+    fn open(&mut self) {
+        self.scopes.push(Vec::new());
+    }
+
+    fn close(&mut self) {
+        self.scopes.pop();
+    }
+
+    /// The head of a `for` counts as a statement of the block around it: its variable hides a name a little longer than
+    /// in WGSL.
+    fn end_statement(&mut self) {
+        if let Some(name) = self.declared.take() {
+            self.declare(name);
+        }
     }
 }
 
@@ -208,14 +277,29 @@ mod tests {
     }
 
     #[test]
+    fn references_leave_out_what_a_declaration_names_itself() {
+        let text = "struct Row { width: f32, @align(SIDE) @builtin(position) height: Length, }\n\
+                    fn sum(count: u32, row: Row) -> f32 {\n    let width = width(row);\n    \
+                    for (var place = first; place < count; place += 1u) {\n        let inner = CASE;\n        \
+                    switch inner { case FIRST: { return width; } default: {} }\n    }\n    return inner + width;\n}\n";
+        let items = items(text).expect("the text is whole").items;
+        let known = |item: &Item<'_>, names: &[&'static str]| -> Vec<&'static str> {
+            names.iter().copied().filter(|name| item.references.contains(name)).collect()
+        };
+        assert_eq!(known(&items[0], &["width", "height", "SIDE", "Length", "align"]), ["SIDE", "Length"]);
+        // `width` is called before a local has its name; `inner` is none of the block it is read in.
+        let names = ["count", "row", "place", "first", "CASE", "FIRST", "width", "inner", "Row", "sum"];
+        assert_eq!(known(&items[1], &names), ["first", "CASE", "FIRST", "width", "inner", "Row"]);
+    }
+
+    #[test]
     fn a_declaration_that_does_not_end_is_an_error() {
         assert_eq!(items("const a = 1;\nfn open() {"), Err(13));
     }
 
     #[test]
     fn every_shader_of_the_house_is_read_whole() {
-        use subsurface_shaders::{KERNELS, LIBRARY, PASSES, PROFILES};
-        for module in LIBRARY.iter().chain(PROFILES).chain(KERNELS).chain(PASSES) {
+        for module in subsurface_shaders::modules() {
             let found = items(module.text).unwrap_or_else(|at| panic!("{}: {at}", module.name));
             // Every line that starts a declaration at column 0 must have become an item.
             let starts = module

@@ -71,10 +71,9 @@ fn push(
             .label(origin.clone(), "this became the WGSL below")
             .help("change this value; the WGSL is generated from it");
     } else {
-        // A module of the house is named by folder and file; others are the caller's own passes.
+        // What is no module of the house is a pass of the caller's own.
         let module = labels.first().and_then(|(range, _)| linked.module_at(range.start));
-        let own = module
-            .filter(|name| ["lib/", "profiles/", "kernels/", "passes/"].iter().all(|h| !name.starts_with(h)));
+        let own = module.filter(|name| subsurface_shaders::modules().all(|house| house.name != *name));
         diagnostic = diagnostic.help(match own.filter(|name| *name != GLUE) {
             Some(pass) => format!("the error is in the pass `{pass}`, which the caller of the compiler gave"),
             None => "no material file is to blame: please report this as a defect of the compiler".to_owned(),
@@ -93,7 +92,7 @@ fn push(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::compose::{Glue, link};
+    use crate::compose::{Files, Glue, link};
 
     fn linked(text: &str, spelled: &str, span: Span) -> Linked {
         let at = text.find(spelled).expect("the text spells the value");
@@ -102,7 +101,7 @@ mod tests {
             origins: vec![(at..at + spelled.len(), span)],
             ..Default::default()
         };
-        link(&[], &glue, &["main"], "// head\n").expect("links")
+        link(Files::default(), &glue, &["main"], "// head\n").expect("links")
     }
 
     #[test]
@@ -137,7 +136,7 @@ mod tests {
             text: "@compute @workgroup_size(1)\nfn main() {\n    let x: f64 = 1.5lf;\n}\n".to_owned(),
             ..Default::default()
         };
-        let linked = link(&[], &glue, &["main"], "").expect("links");
+        let linked = link(Files::default(), &glue, &["main"], "").expect("links");
         assert!(validate(&linked, "subsurface.wgsl", &mut report).is_none());
     }
 }

@@ -1,3 +1,5 @@
+// uses: gather/{channel, curve, gathered, input, point, rejection}, lib/angle; needs: input_pixel
+
 // Every pixel within the filter radius, [L23] eq. (22) with a sum in place of an estimate: what the other kernels are
 // scored against.
 

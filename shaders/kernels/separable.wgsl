@@ -1,3 +1,5 @@
+// uses: gather/{footprint, gathered, input, material, pixel_point, point, rejection}, kernels/separable/{edge_spread, packed_line, taps}, lib/numeric_limits, the material set; needs: input_pixel, input_surface, irradiance_texture, subsurface_view
+
 // Two passes along one axis each: Jimenez et al. 2015, "Separable Subsurface Scattering".
 //
 // The weight of a tap is the light that a line source sends into the tap's strip: the difference of the profile's edge
@@ -5,62 +7,93 @@
 // centre, at the squares of even steps as in that paper but a pixel apart at least; strips meet half way between taps,
 // and the last ones are open.
 
-/// Fraction of the light beyond a line `offset_mm` from an edge, per channel, which is 1 − F.
-fn beyond_line(surface: MaterialSurface, profiles: ChannelProfiles, offset_mm: f32) -> vec3f {
-    return vec3f(
-        curve_beyond_line(surface, profiles.red.curve, offset_mm),
-        curve_beyond_line(surface, profiles.green.curve, offset_mm),
-        curve_beyond_line(surface, profiles.blue.curve, offset_mm),
-    );
-}
-
-/// The same for one channel: a row of the edge curves holds F at even steps of the fourth root of the offset.
-fn curve_beyond_line(surface: MaterialSurface, curve: vec3f, offset_mm: f32) -> f32 {
-    let reach_mm = surface.edge_reach * curve.z;
-    // What little is left where the curve ends is no light: a share of it would be whole.
-    if offset_mm >= reach_mm {
-        return 0.0;
-    }
-    let place = sqrt(sqrt(clamp(offset_mm / reach_mm, 0.0, 1.0))) * CURVE_STEPS;
-    let step = min(floor(place), CURVE_STEPS - 1.0);
-    let row = i32(curve.x) - i32(surface.first_curve) + i32(surface.first_edge);
-    let texel = curve_texel(row, i32(step));
-    let start_and_rise = mix(texel.xy, texel.zw, curve.y);
-    return max(1.0 - start_and_rise.x - start_and_rise.y * (place - step), 0.0);
-}
-
-/// Distance of tap `tap` of `taps` on one side of the centre, in whole pixels: the squares of even steps up to the
-/// reach, but no two taps on one pixel, so that strips end between pixels.
-fn tap_offset(tap: f32, taps: f32, reach_pixels: f32) -> f32 {
-    let step = tap / taps;
-    return max(round(step * step * min(reach_pixels, LARGEST_TAP_DISTANCE)), tap);
-}
-
-/// Axis along which the first of the two passes blurs at `pixel`: the rows of the target, or another direction for each
-/// pixel where the compiler says so. The second pass is perpendicular.
-fn first_axis(pixel: vec2i, frame: u32) -> vec2f {
-    if !SEPARABLE_ROTATED {
-        return vec2f(1.0, 0.0);
-    }
-    let angle = 0.25 * TAU * interleaved_gradient_noise(pixel, frame);
-    return vec2f(cos(angle), sin(angle));
-}
-
-/// Taps on each side of the centre, of `beside_centre` on both; an odd one is rounded up.
-fn taps_per_side(beside_centre: u32) -> u32 {
-    return (beside_centre + 1u) / 2u;
-}
-
-/// Share of a strip's light that is left of it where the surface lies `depth_mm` deeper or higher: what lies beyond the
-/// strip's middle is taken at its distance in space.
-fn line_share(
+/// Light gathered along `axis` at the point; `is_second` tells the second pass, which reads `blurred`, what the first
+/// one left. The centre's own light counts unless it was not finite.
+fn gather_line(
+    point: SurfacePoint,
     surface: MaterialSurface,
-    profiles: ChannelProfiles,
-    beyond: vec3f,
-    offset_mm: f32,
-    depth_mm: f32,
-) -> vec3f {
-    let path_mm = sqrt(offset_mm * offset_mm + depth_mm * depth_mm);
-    let left = beyond_line(surface, profiles, path_mm);
-    return clamp(left / max(beyond, vec3f(SMALLEST_WEIGHT)), vec3f(0.0), vec3f(1.0));
+    own: vec3f,
+    own_counts: bool,
+    axis: vec2f,
+    blurred: texture_2d<u32>,
+    is_second: bool,
+) -> Gathered {
+    let sides = taps_per_side(footprint_taps(point, budget_beside_centre()));
+    let reach = point.filter_radius_pixels;
+    let steps = f32(max(sides, 1u));
+    // The centre's strip ends half way to the first tap, on both sides.
+    let edge_mm = 0.5 * tap_offset(1.0, steps, reach) * point.pixel_mm;
+    var beyond_edge = beyond_line(surface, point.profiles, edge_mm);
+    let centre = select(vec3f(0.0), vec3f(1.0) - 2.0 * beyond_edge, own_counts);
+    var gathered = Gathered(centre * own, centre);
+    for (var tap = 1u; tap <= sides; tap += 1u) {
+        let offset = tap_offset(f32(tap), steps, reach);
+        let offset_mm = offset * point.pixel_mm;
+        let next_edge_mm = 0.5 * (offset + tap_offset(f32(tap) + 1.0, steps, reach)) * point.pixel_mm;
+        let beyond_next = select(beyond_line(surface, point.profiles, next_edge_mm), vec3f(0.0), tap == sides);
+        let strip = beyond_edge - beyond_next;
+        let beyond_middle = beyond_line(surface, point.profiles, offset_mm);
+        for (var side = -1.0; side <= 1.0; side += 2.0) {
+            let position = vec2i(round(point.position + side * offset * axis));
+            let pixel = line_pixel(position, blurred, is_second);
+            if !accepts_material(point, pixel.material) {
+                continue;
+            }
+            let depth_mm = depth_difference_mm(point, pixel.distance_mm);
+            let share = line_share(surface, point.profiles, beyond_middle, offset_mm, depth_mm);
+            let weight = strip * share * accepted_by_normal(point.normal, position, point.span_mm);
+            gathered = together(gathered, Gathered(weight * pixel.irradiance, weight));
+        }
+        beyond_edge = beyond_next;
+    }
+    return gathered;
+}
+
+/// The pixel that a tap sees: of the inputs in the first pass, of what that left in the second.
+fn line_pixel(position: vec2i, blurred: texture_2d<u32>, is_second: bool) -> InputPixel {
+    if !is_second {
+        return input_pixel(position);
+    }
+    let surface = input_surface(position);
+    if surface.material == NO_MATERIAL {
+        return InputPixel(vec3f(0.0), 0.0, NO_MATERIAL);
+    }
+    return InputPixel(unpack_line(textureLoad(blurred, position, 0).rg), surface.distance_mm, surface.material);
+}
+
+/// Irradiance of the pixel after the first pass.
+fn blur_first(pixel: vec2i, blurred: texture_2d<u32>) -> vec2u {
+    let surface = input_surface(pixel);
+    if surface.material == NO_MATERIAL {
+        return vec2u(0u);
+    }
+    let texel = textureLoad(irradiance_texture, pixel, 0).rgb;
+    let own = finite_irradiance(texel);
+    let point = surface_point_at(pixel, surface);
+    if footprint_taps(point, subsurface_view.taps) == 0u {
+        return pack_line(own);
+    }
+    let row = material_table[surface.material].surface;
+    let axis = first_axis(pixel, subsurface_view.frame_index);
+    let gathered = gather_line(point, row, own, is_finite_rgb(texel), axis, blurred, false);
+    return pack_line(diffused_irradiance(gathered, own));
+}
+
+/// Irradiance of the pixel after the second pass, from its texel of the irradiance.
+fn blur_second(pixel: vec2i, texel: vec4f, blurred: texture_2d<u32>) -> vec4f {
+    let surface = input_surface(pixel);
+    if surface.material == NO_MATERIAL {
+        return texel;
+    }
+    let own = finite_irradiance(texel.rgb);
+    let point = surface_point_at(pixel, surface);
+    if footprint_taps(point, subsurface_view.taps) == 0u {
+        return vec4f(own, texel.a);
+    }
+    let row = material_table[surface.material].surface;
+    let along = first_axis(pixel, subsurface_view.frame_index);
+    let half_way = unpack_line(textureLoad(blurred, pixel, 0).rg);
+    let gathered = gather_line(point, row, half_way, true, vec2f(-along.y, along.x), blurred, true);
+    let diffused = diffused_irradiance(gathered, half_way);
+    return vec4f(mix(own, diffused, footprint_blend(point)), texel.a);
 }

@@ -1,3 +1,5 @@
+// uses: lib/exponential
+
 // One source of a dipole: a point of light at depth z below the surface, whose field decays with s. It sends the
 // fraction (z/ρ) e^(−s(ρ − z)) of its light through the surface outside of r, ρ = √(r² + z²) (Jensen et al. 2001,
 // eq. 4, divided by its integral).

@@ -1,3 +1,5 @@
+// uses: lib/numeric_limits
+
 /// 1 − e^(−x) for x ≥ 0, without the cancellation of the direct form.
 ///
 /// Below 1/8 the alternating series to x⁵ is exact to f32 rounding: its first dropped term is x⁵/720 of the value.

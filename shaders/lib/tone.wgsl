@@ -1,3 +1,5 @@
+// uses: lib/numeric_limits
+
 /// Radiance to display-linear [0, 1] with hue kept: the Khronos PBR Neutral tone mapper (Khronos 2024).
 ///
 /// Below a peak of 0.8 − offset nothing changes but the removal of the 4 % specular floor; above it the peak is

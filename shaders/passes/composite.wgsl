@@ -1,3 +1,5 @@
+// uses: lib/{angle, covering_triangle, tone}
+
 /// How radiance becomes a picture.
 struct CompositeSettings {
     /// Radiance of the background at the top, red, green, blue.

@@ -1,3 +1,5 @@
+// uses: gather/{gathered, point}, kernels/dense, lib/angle, passes/subsurface
+
 /// Light for the point that `pixel` shows, of every pixel in reach.
 fn gather_at(point: SurfacePoint, pixel: vec2i) -> Gathered {
     return gather_dense(point, pixel, vec2i(textureDimensions(irradiance_texture)));

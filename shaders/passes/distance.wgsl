@@ -1,3 +1,5 @@
+// uses: lib/{covering_triangle, distance}
+
 /// How a depth value becomes a distance.
 struct DistanceView {
     /// (x, y, z, w): distance along the view axis in mm = (x·depth + y) / (z·depth + w).

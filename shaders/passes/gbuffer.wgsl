@@ -1,25 +1,7 @@
+// uses: gather/input, lib/{angle, numeric_limits}, light/{diffuse, directional_light, normal_map, shadow, specular, transmission}, the material set
+
 /// Lights that one frame can hold.
 const LIGHT_CAPACITY: u32 = 4u;
-
-/// A directional light.
-struct Light {
-    /// Coordinates in the light's shadow map (x, y in [0, 1], depth) from world space.
-    shadow_from_world: mat4x4f,
-    /// Unit vector from the surface towards the light, world space.
-    towards_light: vec3f,
-    /// Millimetres between the depths 0 and 1 of the shadow map.
-    shadow_range_mm: f32,
-    /// Irradiance on a surface that faces the light, red, green, blue.
-    irradiance: vec3f,
-    /// Radius of the shadow filter in texture coordinates of the shadow map.
-    shadow_filter_radius: f32,
-    /// World-space distance by which a point is lifted off the surface before it is compared, against self-shadowing.
-    shadow_normal_offset: f32,
-    /// World-space radius over which the thickness is averaged.
-    thickness_filter_radius: f32,
-    /// Millimetres that a world unit has.
-    millimetres_per_world_unit: f32,
-}
 
 /// Camera and lights of one frame.
 struct GBufferFrame {
@@ -96,73 +78,6 @@ fn gbuffer_vertex(vertex: GBufferVertex) -> GBufferInterpolated {
     return interpolated;
 }
 
-/// Normal of the normal map in world space, with the tangent frame from screen-space derivatives
-/// (Schüler 2006, "Normal Mapping without Precomputed Tangents", ShaderX5).
-///
-/// `texel` holds the map's value in [0, 1], x towards increasing u and y towards decreasing v as in glTF.
-fn mapped_normal(normal: vec3f, world_position: vec3f, texture_coordinate: vec2f, texel: vec3f, scale: f32) -> vec3f {
-    let position_dx = dpdx(world_position);
-    let position_dy = dpdy(world_position);
-    let coordinate_dx = dpdx(texture_coordinate);
-    let coordinate_dy = dpdy(texture_coordinate);
-    // The paper's screen has y up; here it runs down, and a back face mirrors it once more. The sign says which.
-    let orientation = sign(dot(cross(position_dx, position_dy), normal));
-    let across_dy = orientation * cross(position_dy, normal);
-    let across_dx = orientation * cross(normal, position_dx);
-    let tangent = across_dy * coordinate_dx.x + across_dx * coordinate_dy.x;
-    let bitangent = -(across_dy * coordinate_dx.y + across_dx * coordinate_dy.y);
-    let longest = max(dot(tangent, tangent), dot(bitangent, bitangent));
-    // (World length × texture coordinate per pixel)²: nothing this small is a frame, only a mesh without coordinates.
-    if longest < 1e-30 {
-        return normal;
-    }
-    let slope = (2.0 * texel.xy - 1.0) * scale;
-    // A map that points below the surface would turn the normal inside out.
-    let height = max(2.0 * texel.z - 1.0, 0.05);
-    return normalize((tangent * slope.x + bitangent * slope.y) * inverseSqrt(longest) + normal * height);
-}
-
-/// Light that comes through from the far side: E(−n·l) A (1 − cdf(thickness)), the thickness measured in the shadow map
-/// along the inverted normal (Jimenez et al. 2010, "Real-Time Realistic Skin Translucency").
-fn transmitted_irradiance(
-    light: Light,
-    layer: u32,
-    world_position: vec3f,
-    normal: vec3f,
-    profiles: ChannelProfiles,
-    surface_albedo: vec3f,
-) -> vec3f {
-    let facing_away = -dot(normal, light.towards_light);
-    if facing_away <= 0.0 {
-        return vec3f(0.0);
-    }
-    let inside = world_position - light.shadow_normal_offset * normal;
-    // Moving in shortens the way to the light, which is to be given back.
-    let moved_in_mm = light.shadow_normal_offset * facing_away * light.millimetres_per_world_unit;
-    // Any axis that is not the light's own spans the disc across its direction.
-    let axis = select(vec3f(0.0, 1.0, 0.0), vec3f(1.0, 0.0, 0.0), abs(light.towards_light.y) > 0.9);
-    let across = normalize(cross(light.towards_light, axis));
-    let along = cross(light.towards_light, across);
-    // The mean over a small disc hides the steps of the shadow map's texels.
-    var thickness_mm = 0.0;
-    var seen = 0.0;
-    for (var tap = 0u; tap < SHADOW_TAPS; tap += 1u) {
-        let offset = light.thickness_filter_radius * vogel_disc(tap, SHADOW_TAPS);
-        let point = light.shadow_from_world * vec4f(inside + offset.x * across + offset.y * along, 1.0);
-        let nearest = nearest_to_light(shadow_maps, point.xy, layer);
-        if nearest < 1.0 {
-            thickness_mm += max(point.z - nearest, 0.0) * light.shadow_range_mm + moved_in_mm;
-            seen += 1.0;
-        }
-    }
-    if seen == 0.0 {
-        return vec3f(0.0); // the map saw nothing here: what was not measured does not glow
-    }
-    // Directions in which the map saw nothing let nothing through.
-    let through = channel_transmittance(profiles, surface_albedo, thickness_mm / seen) * seen / f32(SHADOW_TAPS);
-    return light.irradiance * facing_away * through;
-}
-
 @fragment
 fn gbuffer_fragment(interpolated: GBufferInterpolated, @builtin(front_facing) front_facing: bool) -> GBufferTargets {
     let texel = textureSample(surface_albedo_texture, surface_sampler, interpolated.texture_coordinate);
@@ -188,8 +103,7 @@ fn gbuffer_fragment(interpolated: GBufferInterpolated, @builtin(front_facing) fr
     let profiles = material_profiles(row, surface_albedo);
     let transmission = frame.transmission * select(0.0, row.surface.transmission_strength, translucent);
 
-    // From everywhere alike: what the specular lobe takes on average stays outside.
-    var irradiance = frame.ambient_irradiance * (1.0 - fresnel_schlick_mean(reflectance));
+    var irradiance = entering_ambient_irradiance(frame.ambient_irradiance, reflectance);
     var unscattered = vec3f(0.0);
     for (var i = 0u; i < min(frame.light_count, LIGHT_CAPACITY); i += 1u) {
         let light = frame.lights[i];
@@ -202,8 +116,7 @@ fn gbuffer_fragment(interpolated: GBufferInterpolated, @builtin(front_facing) fr
         let facing = select(1.0, clamp(true_cosine * 8.0, 0.0, 1.0), object.normal_scale > 0.0);
         let cosine = max(dot(normal, light.towards_light), 0.0);
         let arriving = light.irradiance * visibility * facing;
-        // What the surface reflects specularly does not enter: Lambert · (1 − F).
-        irradiance += arriving * cosine * (1.0 - fresnel_schlick(reflectance, cosine));
+        irradiance += entering_irradiance(arriving, cosine, reflectance);
         unscattered +=
             arriving * specular_reflection(normal, light.towards_light, towards_camera, reflectance, roughness);
         if transmission > 0.0 {

@@ -1,3 +1,5 @@
+// uses: gather/{footprint, gathered, point}, kernels/importance_sampled, lib/{angle, noise}, passes/subsurface
+
 /// Light for the point that `pixel` shows, by taps that are turned per pixel.
 fn gather_at(point: SurfacePoint, pixel: vec2i) -> Gathered {
     let turn = TAU * interleaved_gradient_noise(pixel, subsurface_view.frame_index);

@@ -1,3 +1,5 @@
+// uses: gather/tile, kernels/separable, passes/{subsurface, subsurface_compute}
+
 /// First pass over a tile.
 @compute @workgroup_size(16, 16)
 fn first_compute(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) local: vec3u) {

@@ -1,3 +1,5 @@
+// uses: gather/tile, kernels/single_stage, passes/{subsurface, subsurface_compute}
+
 /// Diffused irradiance of a tile's translucent pixels.
 @compute @workgroup_size(16, 16)
 fn subsurface_compute(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) local: vec3u) {

@@ -1,3 +1,5 @@
+// uses: gather/{classification, tile}, the material set
+
 /// What the first stage of the kernel left for the second, if it has two.
 @group(2) @binding(0) var intermediate_source: texture_2d<u32>;
 /// The rest of it, where one texel is too small.
@@ -16,33 +18,6 @@
 @group(2) @binding(7) var<storage, read_write> dispatch_arguments: DispatchArguments;
 /// The result.
 @group(2) @binding(8) var diffused_target: DiffusedTexture;
-
-/// Side of a tile, pixels.
-const TILE_SIDE: u32 = 16u;
-
-/// Largest number of workgroups along one axis that every device takes.
-const LARGEST_DISPATCH: u32 = 65535u;
-
-/// The tiles that later stages run over.
-struct TileList {
-    /// Number of tiles.
-    count: atomic<u32>,
-    /// Their places: TILE_LISTED, the row from bit 12 on, and the column. Zero behind the last.
-    places: array<u32>,
-}
-
-/// Bit that tells a tile from an entry that was not written.
-const TILE_LISTED: u32 = 0x80000000u;
-
-/// Workgroups of an indirect dispatch.
-struct DispatchArguments {
-    /// The number of tiles, up to LARGEST_DISPATCH.
-    x: atomic<u32>,
-    /// Rows of that many which hold all tiles; the last may be longer than the list.
-    y: atomic<u32>,
-    /// 1.
-    z: u32,
-}
 
 /// Whether a pixel of the workgroup's tile is translucent.
 var<workgroup> tile_is_occupied: atomic<u32>;
@@ -76,39 +51,4 @@ fn classify_compute(
         atomicMax(&dispatch_arguments.x, min(place + 1u, LARGEST_DISPATCH));
         atomicMax(&dispatch_arguments.y, place / LARGEST_DISPATCH + 1u);
     }
-}
-
-/// Copies the pixel at `position` unless it scatters, and packs it where the kernel wants that. Returns whether it
-/// scatters.
-fn classify_pixel(position: vec2i) -> bool {
-    if !is_inside(position) {
-        return false;
-    }
-    let surface = input_surface(position);
-    let scatters = surface.material != NO_MATERIAL;
-    if scatters && !PACKS_PIXELS {
-        return true;
-    }
-    let texel = textureLoad(irradiance_texture, position, 0);
-    if PACKS_PIXELS {
-        textureStore(pixel_target, position, vec4u(pack_pixel(surface, texel.rgb), 0u, 0u));
-    }
-    if !scatters {
-        textureStore(diffused_target, position, texel);
-    }
-    return scatters;
-}
-
-/// The listed tile of a workgroup; 0 where there is none.
-fn listed_tile(group: vec3u) -> u32 {
-    let place = group.y * LARGEST_DISPATCH + group.x;
-    if place >= arrayLength(&tiles.places) {
-        return 0u;
-    }
-    return tiles.places[place];
-}
-
-/// First pixel of a listed tile.
-fn tile_origin(listed: u32) -> vec2i {
-    return vec2i(vec2u(listed & 0xfffu, (listed >> 12u) & 0xfffu) * TILE_SIDE);
 }

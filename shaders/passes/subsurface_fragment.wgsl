@@ -1,3 +1,5 @@
+// uses: lib/covering_triangle, passes/subsurface
+
 /// What the first stage of the kernel left for the second, if it has two.
 @group(2) @binding(0) var intermediate_texture: texture_2d<u32>;
 /// The rest of it, where one texel is too small.

@@ -1,3 +1,5 @@
+// uses: lib/{angle, exponential, numeric_limits}
+
 // Normalized diffusion: R(r) = A (e^(−r/d) + e^(−r/3d)) / (8π d r).
 // [CB15] Christensen and Burley 2015, "Approximate Reflectance Profiles for Efficient Subsurface Scattering".
 

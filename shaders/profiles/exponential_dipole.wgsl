@@ -1,3 +1,5 @@
+// uses: lib/{angle, dipole_source, exponential, numeric_limits}
+
 // Exponential + dipole: 1 − cdf(r) = w e^(−r/d) + (1 − w) (z/ρ) e^(−s(ρ − z)), ρ = √(r² + z²).
 // An exponential for the light that scattered a few times near the entry, and the field of one source at depth z
 // for the rest.

@@ -1,3 +1,5 @@
+// uses: lib/{angle, exponential}; needs: gaussian_sum_area_pdf, gaussian_sum_term
+
 // Sum of Gaussians: R(r) / A = Σ wᵢ G(vᵢ, r), G(v, r) = e^(−r²/2v) / (2πv), Σ wᵢ = 1 per channel.
 // [GG3] d'Eon and Luebke 2007, GPU Gems 3, chapter 14.
 // From the material set come `gaussian_sum_term(i)`, (weight red, green, blue; variance in mm²), and the functions that

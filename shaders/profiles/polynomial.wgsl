@@ -1,3 +1,5 @@
+// uses: lib/{angle, exponential, numeric_limits, single_scattering_albedo}
+
 // Polynomial profile: r R(r) = (a r + b) / (r + c) for r < r_max = −b/a, else 0.
 // [L23] Liang et al. 2023. r_max is printed there as −a/b; only −b/a is a length.
 

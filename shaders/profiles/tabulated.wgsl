@@ -1,3 +1,5 @@
+// uses: lib/{angle, numeric_limits}; needs: tabulated_knot, tabulated_piece_start
+
 // A table of 2πr R(r) / A by surface albedo and radius. The cdf is a monotone cubic between two radii.
 // From the material set come `tabulated_knot(i)`, table by table, by surface albedo, by radius, and the search for the
 // piece that holds a radius: `tabulated_piece_start(profile, radius)`, strides of `tabulated_stride`.

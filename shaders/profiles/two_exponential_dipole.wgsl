@@ -1,3 +1,5 @@
+// uses: lib/{angle, dipole_source, exponential, numeric_limits}
+
 // Two exponentials + dipole: 1 − cdf(r) = w ((1 − a) e^(−r/d) + a e^(−r/bd)) + (1 − w) ((1 − h) D(z) + h D(kz)),
 // D(z) = (z/ρ) e^(−s(ρ − z)), ρ = √(r² + z²).
 // Exponentials for the light that scattered a few times near the entry, and the two sources of a dipole for the rest.

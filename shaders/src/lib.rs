@@ -1,8 +1,16 @@
 //! Hand-written WGSL, handed out as text.
 //!
-//! A [`Module`] is one `.wgsl` file. Library, profile and kernel modules hold pure functions; a pass module holds
-//! bindings and entry points. No top-level name stands in two modules that may be linked together (library, profiles,
-//! kernels), so a linker can resolve a name by itself: `subsurface-codegen` does.
+//! A [`Module`] is one `.wgsl` file, and each folder is a room: pure functions ([`LIBRARY`]), profile models
+//! ([`PROFILES`]), what all estimators share ([`GATHER`]), the estimators ([`KERNELS`]), the light of the G-buffer
+//! ([`LIGHT`]), and bindings with entry points ([`PASSES`]). The first line of a file names the files that it takes from,
+//! and what it leaves open for the pass that links it:
+//!
+//! ```wgsl
+//! // uses: gather/{channel, gathered, input, point, rejection}, lib/angle; needs: input_pixel
+//! ```
+//!
+//! No top-level name stands in two modules that may be linked together, so a linker can resolve a name by itself:
+//! `subsurface-codegen` does, checks those lines, and leaves them out.
 //!
 //! ```
 //! let burley = subsurface_shaders::PROFILES.iter().find(|module| module.name == "profiles/burley").unwrap();
@@ -26,18 +34,19 @@ macro_rules! modules {
     };
 }
 
-/// Pure functions that passes, kernels and profiles share.
+/// Constants, noise and pure functions.
 pub const LIBRARY: &[Module] = modules![
+    "lib/angle",
     "lib/covering_triangle",
     "lib/dipole_source",
+    "lib/distance",
     "lib/exponential",
-    "lib/low_discrepancy",
+    "lib/noise",
     "lib/numeric_limits",
-    "lib/shadow",
     "lib/shared_exponent",
     "lib/single_scattering_albedo",
-    "lib/specular",
     "lib/tone",
+    "lib/vogel_disc",
 ];
 
 /// Profile models in f32: the twins of `subsurface-profile`'s.
@@ -55,30 +64,69 @@ pub const PROFILES: &[Module] = modules![
     "profiles/two_exponential_dipole",
 ];
 
-/// What a profile is plugged into.
+/// What all estimators share: inputs, points, curves, taps, rejection.
+pub const GATHER: &[Module] = modules![
+    "gather/channel",
+    "gather/classification",
+    "gather/curve",
+    "gather/footprint",
+    "gather/gathered",
+    "gather/input",
+    "gather/material",
+    "gather/mean_free_path_scale",
+    "gather/normal",
+    "gather/packed_pixel",
+    "gather/pixel_point",
+    "gather/point",
+    "gather/profile",
+    "gather/rejection",
+    "gather/tap",
+    "gather/tile",
+    "gather/view",
+];
+
+/// The estimators, which a profile is plugged into.
 pub const KERNELS: &[Module] = modules![
-    "kernels/block",
+    "kernels/debug_view",
     "kernels/dense",
-    "kernels/far_field",
     "kernels/importance_sampled",
-    "kernels/input_pixel",
     "kernels/interleaved",
-    "kernels/material",
-    "kernels/near_field",
-    "kernels/packed_pixel",
-    "kernels/profile_curve",
-    "kernels/rejection",
+    "kernels/interleaved/agreement",
+    "kernels/interleaved/block",
+    "kernels/interleaved/block_light",
+    "kernels/interleaved/far",
+    "kernels/interleaved/far_fields",
+    "kernels/interleaved/mixture",
+    "kernels/interleaved/near",
+    "kernels/interleaved/receiver",
+    "kernels/interleaved/ring",
+    "kernels/interleaved/rows",
+    "kernels/interleaved/window",
+    "kernels/probe",
     "kernels/separable",
-    "kernels/surface_point",
-    "kernels/translucent_pixel",
+    "kernels/separable/edge_spread",
+    "kernels/separable/packed_line",
+    "kernels/separable/taps",
+    "kernels/single_stage",
+];
+
+/// Light on surfaces: what enters, what is reflected, what comes through.
+pub const LIGHT: &[Module] = modules![
+    "light/diffuse",
+    "light/directional_light",
+    "light/fresnel",
+    "light/normal_map",
+    "light/shadow",
+    "light/specular",
+    "light/transmission",
 ];
 
 /// Passes with their bindings and entry points.
 ///
 /// Linked with the parts of the subsurface pass that all kernels share, `passes/<kernel>` is the fragment path of a
 /// kernel and `passes/<kernel>_compute` its compute path. Kernels of one stage share both, `passes/single_stage` and
-/// `passes/single_stage_compute`, and their `passes/<kernel>` holds what differs. The parts of two kernels bear the
-/// same names.
+/// `passes/single_stage_compute`, and their `passes/<kernel>` says what those gather by. The parts of two kernels bear
+/// the same names.
 pub const PASSES: &[Module] = modules![
     "passes/composite",
     "passes/dense",
@@ -97,3 +145,8 @@ pub const PASSES: &[Module] = modules![
     "passes/subsurface_debug",
     "passes/subsurface_fragment",
 ];
+
+/// Every module, room by room.
+pub fn modules() -> impl Iterator<Item = &'static Module> {
+    [LIBRARY, PROFILES, GATHER, KERNELS, LIGHT, PASSES].into_iter().flatten()
+}

@@ -1,9 +1,9 @@
 //! The kernel module of a set, from its materials to a validated text.
 
 use subsurface_kernel::{Estimator, RowBinding};
-use subsurface_shaders::{KERNELS, LIBRARY, Module, PASSES, PROFILES};
+use subsurface_shaders::{GATHER, KERNELS, LIBRARY, LIGHT, Module, PASSES, PROFILES};
 
-use crate::compose::{LinkError, Linked, link};
+use crate::compose::{Files, LinkError, Linked, link};
 use crate::diagnostics::{Diagnostic, Report};
 use crate::emit::{Choices, Emitted, emit, material_constant};
 use crate::material::MaterialSet;
@@ -59,16 +59,16 @@ impl KernelModule {
         let in_use = |module: &&Module| {
             emitted.models.iter().any(|model| module.name == format!("profiles/{}", model.stem()))
         };
-        let pass_files = pass_files(choices.estimator, gbuffer);
-        let modules: Vec<Module> = LIBRARY
-            .iter()
+        let rooms: Vec<Module> = [LIBRARY, GATHER, KERNELS, LIGHT]
+            .into_iter()
+            .flatten()
             .chain(PROFILES.iter().filter(in_use))
-            .chain(KERNELS)
-            .chain(PASSES.iter().filter(|module| pass_files.iter().any(|file| file == module.name)))
             .copied()
-            .chain(passes.iter().map(|pass| Module { name: pass.name, text: pass.text }))
             .collect();
-        let row_binding = parameter_table::declare(&mut emitted.glue, &modules, set.materials.len());
+        let of_house = pass_files(choices.estimator, gbuffer);
+        let guests: Vec<Module> =
+            passes.iter().map(|pass| Module { name: pass.name, text: pass.text }).collect();
+        let row_binding = parameter_table::declare(&mut emitted.glue, &rooms, set.materials.len());
         let mut roots = SUBSURFACE_ENTRIES.to_vec();
         if choices.estimator.has_two_stages() {
             roots.extend(FIRST_ENTRIES);
@@ -80,7 +80,8 @@ impl KernelModule {
             roots.extend(GBUFFER_ENTRIES);
         }
         roots.extend(passes.iter().flat_map(|pass| pass.entry_points));
-        let linked = match link(&modules, &emitted.glue, &roots, header) {
+        let files = Files { rooms: &rooms, passes: &of_house, guests: &guests };
+        let linked = match link(files, &emitted.glue, &roots, header) {
             Ok(linked) => linked,
             Err(error) => {
                 report.push(link_diagnostic(set, &error));
@@ -113,27 +114,27 @@ fn link_diagnostic(set: &MaterialSet, error: &LinkError) -> Diagnostic {
                 format!("becomes `{}` in the generated WGSL", material_constant(&material.name)),
             )
             .help("rename the file, or give the material a `name: \"…\"` of its own"),
+        None if matches!(error, LinkError::OfAGuest { .. }) => Diagnostic::error(error.to_string())
+            .help("no material file is to blame: change the text that `Compiler::with_pass` got"),
         None => Diagnostic::error(error.to_string()).help(DEFECT),
     }
 }
 
-/// The modules that hold the passes of one kernel: what all kernels share, and what this one adds.
-fn pass_files(estimator: Estimator, gbuffer: bool) -> Vec<String> {
+/// The passes of one kernel: what all kernels share, and what this one adds. Bindings come before the entry points whose
+/// files need them.
+fn pass_files(estimator: Estimator, gbuffer: bool) -> Vec<Module> {
     let stem = estimator.stem();
-    let mut files = vec![
-        "passes/subsurface".to_owned(),
-        "passes/subsurface_compute".to_owned(),
-        "passes/subsurface_debug".to_owned(),
-        "passes/subsurface_fragment".to_owned(),
-        format!("passes/{stem}"),
-    ];
+    let mut stems = vec!["subsurface", "subsurface_fragment", stem];
+    let compute = format!("{stem}_compute");
     if estimator.has_two_stages() {
-        files.push(format!("passes/{stem}_compute"));
+        stems.extend(["subsurface_compute", &compute]);
     } else {
-        files.extend(["passes/single_stage".to_owned(), "passes/single_stage_compute".to_owned()]);
+        stems.extend(["single_stage", "subsurface_compute", "single_stage_compute"]);
     }
+    stems.push("subsurface_debug");
     if gbuffer {
-        files.push("passes/gbuffer".to_owned());
+        stems.push("gbuffer");
     }
-    files
+    let pass = |stem: &&str| PASSES.iter().find(|module| module.name.strip_prefix("passes/") == Some(stem));
+    stems.iter().filter_map(pass).copied().collect()
 }

@@ -6,7 +6,7 @@ use naga::TypeInner;
 use subsurface_kernel::RowBinding;
 use subsurface_shaders::Module;
 
-use crate::compose::{Glue, link};
+use crate::compose::{Files, Glue, link};
 
 use super::ROW;
 
@@ -15,9 +15,9 @@ const LARGEST_UNIFORM_BUFFER: usize = 65536;
 
 /// Adds the declaration to the glue: a uniform buffer where the rows fit, since software drivers load from a storage
 /// buffer much more slowly at an index that is no constant. Returns what it declares.
-pub(super) fn declare(glue: &mut Glue, modules: &[Module], materials: usize) -> RowBinding {
+pub(super) fn declare(glue: &mut Glue, rooms: &[Module], materials: usize) -> RowBinding {
     // Where the row cannot be laid out, the whole module cannot either, and linking or validating it says why.
-    let bytes = row_bytes(glue, modules).map(|bytes| bytes * materials);
+    let bytes = row_bytes(glue, rooms).map(|bytes| bytes * materials);
     let (binding, declaration) = if bytes.is_some_and(|bytes| bytes <= LARGEST_UNIFORM_BUFFER) {
         (RowBinding::Uniform, format!("var<uniform> material_table: array<{ROW}, {materials}>;"))
     } else {
@@ -32,8 +32,8 @@ pub(super) fn declare(glue: &mut Glue, modules: &[Module], materials: usize) -> 
 }
 
 /// Bytes of one row, as naga lays it out. Rows of either address space have one layout: see `emit_row`.
-fn row_bytes(glue: &Glue, modules: &[Module]) -> Option<usize> {
-    let linked = link(modules, glue, &[ROW], "").ok()?;
+fn row_bytes(glue: &Glue, rooms: &[Module]) -> Option<usize> {
+    let linked = link(Files { rooms, ..Files::default() }, glue, &[ROW], "").ok()?;
     let module = naga::front::wgsl::parse_str(&linked.text).ok()?;
     let (_, row) = module.types.iter().find(|(_, ty)| ty.name.as_deref() == Some(ROW))?;
     match row.inner {

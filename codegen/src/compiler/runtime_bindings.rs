@@ -2,10 +2,10 @@
 
 use proc_macro2::TokenStream;
 use quote::quote;
-use subsurface_shaders::{KERNELS, LIBRARY, Module, PASSES};
+use subsurface_shaders::{LIBRARY, Module, PASSES};
 
 use crate::bindings::{self, Paths};
-use crate::compose::link;
+use crate::compose::{Files, Glue, link};
 use crate::diagnostics::{Diagnostic, Report};
 use crate::emit::Choices;
 use crate::reflect::reflect;
@@ -30,14 +30,10 @@ pub fn runtime_bindings() -> Result<String, Report> {
     ] {
         let mut report = Report::default();
         let module_name = format!("passes/{name}");
-        let modules: Vec<Module> = LIBRARY
-            .iter()
-            .chain(KERNELS)
-            .chain(PASSES.iter().filter(|pass| pass.name == module_name))
-            .copied()
-            .collect();
+        let pass: Vec<Module> = PASSES.iter().filter(|pass| pass.name == module_name).copied().collect();
+        let files = Files { rooms: LIBRARY, passes: &pass, guests: &[] };
         let header = format!("// Linked by subsurface-codegen from {module_name} and what it calls.\n");
-        let linked = link(&modules, &Default::default(), roots, &header);
+        let linked = link(files, &Glue::default(), roots, &header);
         let linked = linked.map_err(|error| report_of(&error.to_string()))?;
         let Some(validated) = validate(&linked, &format!("{name}.wgsl"), &mut report) else {
             return Err(report);

@@ -401,7 +401,7 @@ fn stated_errors_are_bounds_of_three_digits() {
 
 #[test]
 fn constants_are_those_of_the_shaders() {
-    let text: String = subsurface_shaders::KERNELS.iter().map(|module| module.text).collect();
+    let text: String = subsurface_shaders::modules().map(|module| module.text).collect();
     let constant = |name: &str| -> f64 {
         let (_, rest) = text.split_once(&format!("const {name}: ")).unwrap_or_else(|| panic!("no {name}"));
         let value = rest.split_once("= ").and_then(|(_, rest)| rest.split_once(';')).expect("a value").0;

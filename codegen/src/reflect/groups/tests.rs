@@ -1,7 +1,7 @@
 use subsurface_shaders::Module;
 
 use super::*;
-use crate::compose::{Glue, link};
+use crate::compose::{Files, Glue, link};
 use crate::diagnostics::Report;
 use crate::reflect::{Reflection, Resource, reflect};
 use crate::validate::validate;
@@ -10,7 +10,8 @@ use crate::validate::validate;
 fn reflected(one: &'static str, two: &'static str) -> Reflection {
     let modules = [Module { name: "passes/one", text: one }, Module { name: "passes/two", text: two }];
     let mut report = Report::default();
-    let linked = link(&modules, &Glue::default(), &["one_main", "two_main"], "").expect("links");
+    let files = Files { guests: &modules, ..Files::default() };
+    let linked = link(files, &Glue::default(), &["one_main", "two_main"], "").expect("links");
     let validated = validate(&linked, "test.wgsl", &mut report).unwrap_or_else(|| panic!("{report}"));
     reflect(&validated.module, &validated.info, &linked).unwrap_or_else(|error| panic!("{error}"))
 }

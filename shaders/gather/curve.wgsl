@@ -1,3 +1,5 @@
+// uses: gather/material, the material set
+
 // Quantile curves of the profiles, which the compiler bakes: radii are read, not found by iteration.
 //
 // A curve holds the quantile radius Q at 64 steps of t, u = 1 − (1 − t)², in lengths of its material. It belongs to one
@@ -29,6 +31,14 @@ fn curve_place(row: i32, step: i32) -> vec2i {
     return vec2i(row / CURVE_ROWS * i32(CURVE_STEPS) + step, row % CURVE_ROWS);
 }
 
+/// Texel `step` of a row of the curves.
+fn curve_texel(row: i32, step: i32) -> vec4f {
+    return textureLoad(profile_curves, curve_place(row, step), 0);
+}
+
+/// Smallest √(1 − u): u = 1 − 2^-24 in f32.
+const SMALLEST_ROOT: f32 = 2.44140625e-4;
+
 /// (radius in mm, its derivative by u) at the quantile `u` in [0, 1).
 ///
 /// The curve is straight between its steps, so the derivative is the exact reciprocal of the density with which radii
@@ -44,6 +54,3 @@ fn curve_quantile(curve: vec3f, u: f32) -> vec2f {
     let slope = start_and_rise.y * CURVE_STEPS * 0.5 / max(root, SMALLEST_ROOT);
     return curve.z * vec2f(radius, slope);
 }
-
-/// Smallest √(1 − u): u = 1 − 2^-24 in f32.
-const SMALLEST_ROOT: f32 = 2.44140625e-4;

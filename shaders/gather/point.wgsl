@@ -1,3 +1,5 @@
+// uses: gather/{curve, normal, profile, view}, the material set
+
 /// The point of a surface that light is gathered for.
 ///
 /// A factor on the mean free path scales every radius alike, so it is taken out of all lengths once: `pixel_mm` and
@@ -28,13 +30,6 @@ struct SurfacePoint {
 
 /// Share of the light that counts as all of it where the reach of a profile is asked for.
 const FILTER_QUANTILE: f32 = 0.997;
-
-/// Scales of the mean free path are kept within these: enough for a factor of a thousand on any material.
-const SMALLEST_MEAN_FREE_PATH_SCALE: f32 = 1e-3;
-const LARGEST_MEAN_FREE_PATH_SCALE: f32 = 1e3;
-
-/// Smallest length of a pixel, mm: the number of pixels in a radius stays a finite f32.
-const SMALLEST_PIXEL_MM: f32 = 1e-12;
 
 /// The point at `position`, with the profiles that its material has at this surface albedo, and the normal of `pixel`.
 /// The scale is within its limits.
@@ -72,39 +67,4 @@ fn surface_point(
         max(reach.r, max(reach.g, reach.b)) / pixel_mm,
         surface_normal(pixel, span),
     );
-}
-
-/// The surface albedo that a texel of the surface texture gives, or the material's own where it is none.
-fn texel_surface_albedo(texel: vec4f, surface: MaterialSurface) -> vec3f {
-    return select(
-        surface.surface_albedo,
-        clamp(texel.rgb, vec3f(0.0), vec3f(1.0)),
-        is_finite_rgb(texel.rgb),
-    );
-}
-
-/// Taps for a point: a quarter of the pixels within its filter radius, up to the budget, as in Golubev 2018, "Efficient
-/// Screen-Space Subsurface Scattering Using Burley's Normalized Diffusion in Real-Time". A filter of less than a pixel
-/// needs none.
-fn footprint_taps(point: SurfacePoint, budget: u32) -> u32 {
-    if point.filter_radius_pixels < 1.0 {
-        return 0u;
-    }
-    let radius = min(point.filter_radius_pixels, 4096.0);
-    return min(u32(ceil(0.125 * TAU * radius * radius)), min(budget, LARGEST_TAP_COUNT));
-}
-
-/// Bound of every loop over taps.
-const LARGEST_TAP_COUNT: u32 = 4096u;
-
-/// Share of the diffused irradiance in the result: it comes in while the filter radius grows from one pixel to two, so
-/// that nothing pops when a surface comes near.
-fn footprint_blend(point: SurfacePoint) -> f32 {
-    return clamp(point.filter_radius_pixels - 1.0, 0.0, 1.0);
-}
-
-/// Millimetres that a pixel spans at a distance.
-fn span_mm(view: SubsurfaceView, distance_mm: f32) -> f32 {
-    let span = abs(view.millimetres_per_pixel.x + view.millimetres_per_pixel.y * distance_mm);
-    return max(span, SMALLEST_PIXEL_MM);
 }

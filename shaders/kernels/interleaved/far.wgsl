@@ -1,3 +1,5 @@
+// uses: gather/{curve, gathered, packed_pixel, point, tap}, kernels/interleaved/near, lib/angle, the material set
+
 // The light from beyond the ring of a pixel's neighbours: sampled.
 
 /// Radii are drawn from the widest profile made wider by this factor: the other channels' tails and depth differences

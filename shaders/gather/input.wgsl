@@ -1,10 +1,9 @@
-// What the kernels read of the inputs. A pass that links a kernel declares
-//
-//     fn input_pixel(position: vec2i) -> InputPixel       what a tap sees
-//     fn input_surface(position: vec2i) -> InputSurface   what lies there, lit or not
-//     fn curve_texel(row: i32, step: i32) -> vec4f        quantile curves of the profiles
-//
-// and so says where they come from.
+// uses: lib/numeric_limits, the material set
+
+// What the estimators see of the inputs; the pass that links them says where it comes from.
+
+/// Material number of a pixel that belongs to no material of the set.
+const NO_MATERIAL: i32 = -1;
 
 /// A pixel as a tap sees it.
 struct InputPixel {
@@ -33,6 +32,16 @@ const LARGEST_DISTANCE_MM: f32 = 1e15;
 /// Irradiance without what is not finite or below 0.
 fn finite_irradiance(irradiance: vec3f) -> vec3f {
     return select(vec3f(0.0), clamp(irradiance, vec3f(0.0), vec3f(LARGEST_IRRADIANCE)), is_finite_rgb(irradiance));
+}
+
+/// Material number stored in the fourth component of the surface target: NO_MATERIAL unless it is finite and names a
+/// material of the set.
+fn material_number(stored: f32, material_count: u32) -> i32 {
+    // Numbers are written as whole floats; 0.5 splits the marker −1 from material 0.
+    if is_finite(stored) && stored > -0.5 && stored < f32(material_count) - 0.5 {
+        return i32(stored + 0.5);
+    }
+    return NO_MATERIAL;
 }
 
 /// The surface of a texel of the surface target, at `distance_mm`.

@@ -1,19 +1,7 @@
+// uses: lib/angle, light/fresnel
+
 // Torrance–Sparrow in the form of Karis 2013, "Real Shading in Unreal Engine 4": GGX, Smith with Schlick's
 // approximation, Schlick's Fresnel term.
-
-const PI: f32 = 3.14159265;
-
-/// Schlick 1994: F = F₀ + (1 − F₀)(1 − cosθ)⁵.
-fn fresnel_schlick(reflectance_at_normal: f32, cosine: f32) -> f32 {
-    let grazing = 1.0 - clamp(cosine, 0.0, 1.0);
-    let grazing2 = grazing * grazing;
-    return reflectance_at_normal + (1.0 - reflectance_at_normal) * grazing2 * grazing2 * grazing;
-}
-
-/// Cosine-weighted mean of Schlick's F over the hemisphere: F₀ + (1 − F₀)/21, since ∫₀¹ 2μ (1 − μ)⁵ dμ = 1/21.
-fn fresnel_schlick_mean(reflectance_at_normal: f32) -> f32 {
-    return reflectance_at_normal + (1.0 - reflectance_at_normal) / 21.0;
-}
 
 /// GGX distribution of normals, Walter et al. 2007 eq. (33), α = roughness².
 fn ggx_distribution(normal_dot_half: f32, roughness: f32) -> f32 {

@@ -1,8 +1,3 @@
-/// The golden angle π(3 − √5) in radians: successive multiples cover a disc most evenly.
-const GOLDEN_ANGLE: f32 = 2.39996323;
-
-const TAU: f32 = 6.28318531;
-
 /// Interleaved gradient noise in [0, 1): any 3×3 block of pixels holds well-spread values, with no texture to bind.
 ///
 /// Jimenez 2014, "Next Generation Post Processing in Call of Duty: Advanced Warfare", slide 123. `seed` shifts the

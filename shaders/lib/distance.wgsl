@@ -1,15 +1,4 @@
-/// Material number of a pixel that belongs to no material of the set.
-const NO_MATERIAL: i32 = -1;
-
-/// Material number stored in the fourth component of the surface target: NO_MATERIAL unless it is finite and names a
-/// material of the set.
-fn material_number(stored: f32, material_count: u32) -> i32 {
-    // Numbers are written as whole floats; 0.5 splits the marker −1 from material 0.
-    if is_finite(stored) && stored > -0.5 && stored < f32(material_count) - 0.5 {
-        return i32(stored + 0.5);
-    }
-    return NO_MATERIAL;
-}
+// uses: lib/numeric_limits
 
 /// Distance along the view axis, mm, from a depth value: (x·depth + y) / (z·depth + w).
 ///

@@ -1,12 +1,7 @@
+// uses: lib/vogel_disc
+
 /// Taps of the shadow filter.
 const SHADOW_TAPS: u32 = 16u;
-
-/// Position `index` of `count` on a unit disc: equal areas, golden angle (Vogel 1979).
-fn vogel_disc(index: u32, count: u32) -> vec2f {
-    let radius = sqrt((f32(index) + 0.5) / f32(count));
-    let angle = GOLDEN_ANGLE * f32(index);
-    return radius * vec2f(cos(angle), sin(angle));
-}
 
 /// Fraction of the light that reaches a point: `coordinate` is its position in the shadow map (x, y in [0, 1], depth),
 /// `layer` the light's layer, `radius` the filter's radius in texture coordinates.

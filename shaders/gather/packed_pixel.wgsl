@@ -1,3 +1,5 @@
+// uses: gather/input, lib/{numeric_limits, shared_exponent}, the material set
+
 // A pixel of the inputs in two words: the irradiance with a shared exponent, and distance with material. Eight bytes in
 // one load, where the inputs take three loads and twenty bytes and more.
 //

@@ -1,0 +1,35 @@
+// uses: lib/numeric_limits
+
+/// What every material has, whichever profile model it uses.
+struct MaterialSurface {
+    /// Length that scales the profile, per channel (red, green, blue), mm: the mean free path ℓ, or the diffuse mean
+    /// free path for models that are parametrized by it.
+    length_mm: vec3f,
+    /// Profile model: one of the `MODEL_…` constants.
+    model: u32,
+    /// Surface albedo A per channel where no texture overrides it, 0 to 1.
+    surface_albedo: vec3f,
+    /// Specular reflectance at normal incidence F₀, 0 to 1.
+    reflectance_at_normal: f32,
+    /// Roughness of the specular lobe (square root of the GGX α), 0 to 1.
+    roughness: f32,
+    /// Factor on the light that comes through from the far side, 0 for none.
+    transmission_strength: f32,
+    /// First row of the quantile curves of its profile in `profile_curves`.
+    first_curve: u32,
+    /// Number of its curves: one per node of the surface albedo, or one per channel.
+    curve_count: u32,
+    /// First row of the edge curves of its profile; 0 where the kernel reads none.
+    first_edge: u32,
+    /// Distance from an edge, in lengths of the material, at which the edge curves end; 0 where the kernel reads none.
+    edge_reach: f32,
+}
+
+/// The surface albedo that a texel of the surface texture gives, or the material's own where it is none.
+fn texel_surface_albedo(texel: vec4f, surface: MaterialSurface) -> vec3f {
+    return select(
+        surface.surface_albedo,
+        clamp(texel.rgb, vec3f(0.0), vec3f(1.0)),
+        is_finite_rgb(texel.rgb),
+    );
+}

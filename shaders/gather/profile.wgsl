@@ -1,0 +1,31 @@
+/// A profile model with its coefficients evaluated: what the functions `<model>_area_pdf` and its siblings take.
+struct Profile {
+    model: u32,
+    coefficients: vec4f,
+    /// Constants of the model that are not functions of the surface albedo; 0 for models without any.
+    shape: vec4f,
+    /// Where its quantile curve is: see `albedo_curve`.
+    curve: vec3f,
+}
+
+/// The profiles of the three channels at one pixel.
+struct ChannelProfiles {
+    red: Profile,
+    green: Profile,
+    blue: Profile,
+}
+
+/// The profile of one channel, by its number.
+fn channel_profile(profiles: ChannelProfiles, channel: u32) -> Profile {
+    switch channel {
+        case 0u: {
+            return profiles.red;
+        }
+        case 1u: {
+            return profiles.green;
+        }
+        default: {
+            return profiles.blue;
+        }
+    }
+}

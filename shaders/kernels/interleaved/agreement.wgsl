@@ -1,0 +1,23 @@
+// uses: the material set
+
+// Which surfaces belong together.
+
+/// Depth difference, in pixels, up to which pixels of one material belong to one block or to one far field.
+const BLOCK_DEPTH_PIXELS: f32 = 6.0;
+
+/// Reciprocal of the depth difference up to which pixels belong together, mm⁻¹; 0 where distance does not reject.
+fn depth_scale(span_mm: f32) -> f32 {
+    return select(0.0, 1.0 / (BLOCK_DEPTH_PIXELS * span_mm), REJECT_BY_DISTANCE);
+}
+
+/// How far a surface is in front of another or behind it, in BLOCK_DEPTH_PIXELS, at most 1.
+fn apart_in_depth(depth_scale: f32, a_mm: f32, b_mm: f32) -> f32 {
+    return min(abs(depth_scale * (a_mm - b_mm)), 1.0);
+}
+
+/// Share of what lies `apart` in depth that counts: 1 on the surface itself, 0 from 1 on.
+///
+/// A parabola: as good as the Gaussian that it stands for, without an exponential.
+fn depth_agreement(apart: f32) -> f32 {
+    return 1.0 - apart * apart;
+}

@@ -1,0 +1,129 @@
+// uses: gather/{input, material, mean_free_path_scale, packed_pixel, view}, kernels/interleaved/agreement, the material set; needs: subsurface_view, surface_texture
+
+// Blocks of 2×2 pixels share one far field.
+
+/// Side of a block, pixels.
+const BLOCK_SIDE: i32 = 2;
+
+/// The pixels of a block that are of its first translucent pixel's material and depth, as one surface.
+struct Block {
+    /// The first of them.
+    first_pixel: vec2i,
+    /// Mean position, pixels.
+    position: vec2f,
+    /// Material number, or NO_MATERIAL where no pixel of the block is translucent.
+    material: i32,
+    /// Mean distance, mm.
+    distance_mm: f32,
+    /// Mean surface albedo.
+    surface_albedo: vec3f,
+    /// Mean factor on the mean free path.
+    mean_free_path_scale: f32,
+}
+
+/// A pixel of a block.
+struct BlockPixel {
+    position: vec2i,
+    surface: InputSurface,
+    /// Its texel of the surface target: surface albedo and material number.
+    surface_texel: vec4f,
+    /// Factor on the mean free path.
+    mean_free_path_scale: f32,
+}
+
+/// The pixel at `position` of packed `pixels`, which may lie outside of the target.
+fn block_pixel(pixels: texture_2d<u32>, position: vec2i) -> BlockPixel {
+    let surface = unpack_surface(load_packed_pixel(pixels, position).y);
+    if surface.material == NO_MATERIAL {
+        return BlockPixel(position, surface, vec4f(0.0), 1.0);
+    }
+    let surface_texel = textureLoad(surface_texture, position, 0);
+    return BlockPixel(position, surface, surface_texel, mean_free_path_scale_at(position));
+}
+
+/// The pixels of a block, from left to right and from the top.
+struct BlockPixels {
+    a: BlockPixel,
+    b: BlockPixel,
+    c: BlockPixel,
+    d: BlockPixel,
+}
+
+/// The pixels of `block`.
+fn pixels_of_block(pixels: texture_2d<u32>, block: vec2i) -> BlockPixels {
+    let first = BLOCK_SIDE * block;
+    return BlockPixels(
+        block_pixel(pixels, first),
+        block_pixel(pixels, first + vec2i(1, 0)),
+        block_pixel(pixels, first + vec2i(0, 1)),
+        block_pixel(pixels, first + vec2i(1, 1)),
+    );
+}
+
+/// The first translucent pixel of four, or the last one where none is.
+fn first_translucent(pixels: BlockPixels) -> BlockPixel {
+    if pixels.a.surface.material != NO_MATERIAL {
+        return pixels.a;
+    }
+    if pixels.b.surface.material != NO_MATERIAL {
+        return pixels.b;
+    }
+    if pixels.c.surface.material != NO_MATERIAL {
+        return pixels.c;
+    }
+    return pixels.d;
+}
+
+/// 1 for a pixel of the block's surface `first`, 0 for another; `per_mm` is the `depth_scale` there.
+fn membership(pixel: BlockPixel, first: InputSurface, per_mm: f32) -> f32 {
+    if pixel.surface.material != first.material {
+        return 0.0;
+    }
+    return sign(depth_agreement(apart_in_depth(per_mm, pixel.surface.distance_mm, first.distance_mm)));
+}
+
+/// The pixels of a block that are of its first translucent pixel's material and depth, as one surface.
+fn block_of(block: vec2i, pixels: BlockPixels) -> Block {
+    let first_pixel = first_translucent(pixels);
+    let first = first_pixel.surface;
+    if first.material == NO_MATERIAL {
+        return Block(vec2i(0), vec2f(0.0), NO_MATERIAL, 0.0, vec3f(0.0), 1.0);
+    }
+    let per_mm = depth_scale(span_mm(subsurface_view, first.distance_mm));
+    let members = vec4f(
+        membership(pixels.a, first, per_mm),
+        membership(pixels.b, first, per_mm),
+        membership(pixels.c, first, per_mm),
+        membership(pixels.d, first, per_mm),
+    );
+    let shares = members / dot(members, vec4f(1.0));
+    let surface = material_table[first.material].surface;
+    let surface_albedo = shares.x * texel_surface_albedo(pixels.a.surface_texel, surface)
+        + shares.y * texel_surface_albedo(pixels.b.surface_texel, surface)
+        + shares.z * texel_surface_albedo(pixels.c.surface_texel, surface)
+        + shares.w * texel_surface_albedo(pixels.d.surface_texel, surface);
+    return Block(
+        first_pixel.position,
+        vec2f(BLOCK_SIDE * block) + vec2f(shares.y + shares.w, shares.z + shares.w),
+        first.material,
+        dot(
+            shares,
+            vec4f(
+                pixels.a.surface.distance_mm,
+                pixels.b.surface.distance_mm,
+                pixels.c.surface.distance_mm,
+                pixels.d.surface.distance_mm,
+            ),
+        ),
+        surface_albedo,
+        dot(
+            shares,
+            vec4f(
+                pixels.a.mean_free_path_scale,
+                pixels.b.mean_free_path_scale,
+                pixels.c.mean_free_path_scale,
+                pixels.d.mean_free_path_scale,
+            ),
+        ),
+    );
+}

@@ -1,0 +1,41 @@
+// uses: gather/{gathered, input}, kernels/interleaved/{agreement, far_fields, receiver}, the material set
+
+/// What the far fields under a window hold together.
+struct Mixture {
+    /// Their light.
+    far: Gathered,
+    /// Share of the light that leaves the centre.
+    leaving: vec3f,
+    /// The part of the window that agrees with the pixel.
+    window: f32,
+}
+
+/// Share of a far field that a pixel may take: 1 for one of its own surface, 0 for another's.
+fn far_field_agreement(at: Receiver, field: FarField) -> f32 {
+    let is_other = REJECT_BY_MATERIAL && field.surface.material != at.surface.material;
+    if field.surface.material == NO_MATERIAL || is_other {
+        return 0.0;
+    }
+    return depth_agreement(apart_in_depth(at.depth_scale, field.surface.distance_mm, at.surface.distance_mm));
+}
+
+/// `mixture` with the part `share` of a field, as far as it agrees with the pixel.
+fn with_field(mixture: Mixture, at: Receiver, field: FarField, share: f32) -> Mixture {
+    let agreed = share * far_field_agreement(at, field);
+    let far = Gathered(agreed * field.light.irradiance, agreed * field.light.weight);
+    let leaving = agreed * (vec3f(1.0) - field.centre);
+    return Mixture(together(mixture.far, far), mixture.leaving + leaving, mixture.window + agreed);
+}
+
+/// `mixture` with three fields that lie side by side.
+fn with_row(
+    mixture: Mixture,
+    at: Receiver,
+    left: FarField,
+    middle: FarField,
+    right: FarField,
+    shares: vec3f,
+) -> Mixture {
+    let begun = with_field(mixture, at, left, shares.x);
+    return with_field(with_field(begun, at, middle, shares.y), at, right, shares.z);
+}
