@@ -197,7 +197,7 @@ pub(crate) fn link(files: Files<'_>, glue: &Glue, roots: &[&str], header: &str) 
     };
     let files = (GLUE_TITLES.len()..parts.len()).filter(is_start);
     let starts: Vec<usize> = std::iter::once(0).chain(files).chain([1]).collect();
-    let order = order(&parts, &declared, &starts)?;
+    let order = order(&parts, &declared, roots, &starts)?;
     for part in order.iter().map(|&index| &parts[index]) {
         let is_open = |name: &&&str| !declared.contains_key(**name);
         let kept = part.items.iter().filter(|item| reached.contains(item.name));

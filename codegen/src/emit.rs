@@ -255,7 +255,7 @@ fn tabulated_knot(index: u32) -> TabulatedKnot {
 /// How the shaders reach the terms of Gaussian sums: as texels behind the curves. An array in the module, constant or
 /// not, is copied by drivers each time it is indexed.
 const GAUSSIAN_TERMS: &str = "\
-/// Term `index` of the Gaussian sums: weight (red, green, blue; their sum is 1 per channel and model) and variance, mm².
+/// Term `index` of the Gaussian sums: weight (red, green, blue; their sum is 1 per channel and model), variance in mm².
 fn gaussian_sum_term(index: u32) -> vec4f {
     return textureLoad(profile_curves, curve_place(i32(index / 64u), i32(index % 64u)), 0);
 }
@@ -378,7 +378,8 @@ fn emit_row(text: &mut String, models: &[ModelKind]) {
     text.push_str("}\n\n");
 }
 
-/// A function whose body is chosen by model: a plain call where the set uses one model only.
+/// A function whose body is chosen by model: a plain call where the set uses one model only. What `call` returns may have
+/// lines, which are indented.
 fn emit_switch(
     text: &mut String,
     head: &str,
@@ -388,7 +389,7 @@ fn emit_switch(
 ) {
     let _ = writeln!(text, "{head} {{");
     if let [only] = models {
-        let _ = writeln!(text, "    return {};", call(*only));
+        let _ = writeln!(text, "    return {};", call(*only).replace('\n', "\n    "));
     } else {
         let _ = writeln!(text, "    switch {selector} {{");
         for (index, model) in models.iter().enumerate() {
@@ -397,7 +398,8 @@ fn emit_switch(
             } else {
                 let _ = writeln!(text, "        case {}: {{", model.constant());
             }
-            let _ = writeln!(text, "            return {};\n        }}", call(*model));
+            let returned = call(*model).replace('\n', "\n            ");
+            let _ = writeln!(text, "            return {returned};\n        }}");
         }
         text.push_str("    }\n");
     }
@@ -413,7 +415,8 @@ fn emit_dispatch(text: &mut String, models: &[ModelKind]) {
          material_profile(row, surface_albedo.b, row.surface.length_mm.b, 2u),\n    );\n}\n\n",
     );
     text.push_str("/// The profile of one channel (0 red, 1 green, 2 blue) of a material.\n");
-    let head = "fn material_profile(row: SubsurfaceMaterial, surface_albedo: f32, length_mm: f32, channel: u32) -> Profile";
+    let head = "fn material_profile(\n    row: SubsurfaceMaterial,\n    surface_albedo: f32,\n    length_mm: f32,\n    \
+                channel: u32,\n) -> Profile";
     emit_switch(text, head, "row.surface.model", models, |model| {
         let stem = model.stem();
         let (arguments, curve) = match model {
@@ -421,7 +424,8 @@ fn emit_dispatch(text: &mut String, models: &[ModelKind]) {
             _ => ("surface_albedo, length_mm", "albedo_curve(row.surface, surface_albedo, length_mm)"),
         };
         let shape = if model.has_shape() { format!("row.{stem}.shape") } else { "vec4f()".to_owned() };
-        format!("Profile({}, {stem}_profile(row.{stem}, {arguments}), {shape}, {curve})", model.constant())
+        let coefficients = format!("{stem}_profile(row.{stem}, {arguments})");
+        format!("Profile(\n    {},\n    {coefficients},\n    {shape},\n    {curve},\n)", model.constant())
     });
     for (function, argument, docs) in [
         ("area_pdf", "radius_mm", "R(r) / A per unit area, mm⁻². May diverge at r = 0."),

@@ -29,5 +29,8 @@ fn specular_reflection(normal: vec3f, light: vec3f, view: vec3f, reflectance_at_
     let half_vector = normalize(light + view);
     let distribution = ggx_distribution(max(dot(normal, half_vector), 0.0), max(roughness, 0.02));
     let visibility = smith_schlick_visibility(normal_dot_light, normal_dot_view, roughness);
-    return distribution * visibility * fresnel_schlick(reflectance_at_normal, dot(view, half_vector)) * normal_dot_light;
+    return distribution
+        * visibility
+        * fresnel_schlick(reflectance_at_normal, dot(view, half_vector))
+        * normal_dot_light;
 }

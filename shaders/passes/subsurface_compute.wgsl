@@ -1,4 +1,4 @@
-// uses: gather/{classification, tile}, the material set
+// uses: gather/{classification, tile_list}, the material set
 
 /// What the first stage of the kernel left for the second, if it has two.
 @group(2) @binding(0) var intermediate_source: texture_2d<u32>;

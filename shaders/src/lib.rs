@@ -82,6 +82,7 @@ pub const GATHER: &[Module] = modules![
     "gather/rejection",
     "gather/tap",
     "gather/tile",
+    "gather/tile_list",
     "gather/view",
 ];
 

@@ -37,31 +37,66 @@ pub(super) type Declared<'p, 'a> = BTreeMap<&'a str, (usize, &'p Item<'a>)>;
 
 /// The parts that are linked, each after those that it uses: first what `starts` use, one after the other.
 ///
-/// Checks the headers of all of them.
+/// The `roots` stand above all parts, so what they alone use may follow the rest of their file: bindings come before the
+/// functions that need them. Checks the headers of all parts.
 pub(super) fn order(
     parts: &[Part<'_>],
     declared: &Declared<'_, '_>,
+    roots: &[&str],
     starts: &[usize],
 ) -> Result<Vec<usize>, LinkError> {
-    let mut walk = Walk { parts, declared, path: Vec::new(), done: BTreeSet::new(), order: Vec::new() };
+    let mut walk = Walk { parts, declared, roots, path: Vec::new(), uses: BTreeMap::new() };
     for &start in starts {
         walk.visit(start)?;
     }
-    Ok(walk.order)
+    let mut order = Vec::with_capacity(walk.uses.len());
+    let mut placed = BTreeSet::new();
+    for &start in starts {
+        place(start, &walk.uses, &mut placed, &mut order);
+    }
+    Ok(order)
+}
+
+/// Puts a part behind those that it uses. There is no circle.
+fn place(
+    index: usize,
+    uses: &BTreeMap<usize, Vec<Use>>,
+    placed: &mut BTreeSet<usize>,
+    order: &mut Vec<usize>,
+) {
+    if !placed.insert(index) {
+        return;
+    }
+    let used = uses.get(&index).map_or(&[][..], Vec::as_slice);
+    for used in used.iter().filter(|used| !used.by_roots_alone) {
+        place(used.part, uses, placed, order);
+    }
+    order.push(index);
+    for used in used.iter().filter(|used| used.by_roots_alone) {
+        place(used.part, uses, placed, order);
+    }
+}
+
+/// That one part uses another.
+#[derive(Clone, Copy, Debug)]
+struct Use {
+    part: usize,
+    by_roots_alone: bool,
 }
 
 struct Walk<'w, 'a> {
     parts: &'w [Part<'a>],
     declared: &'w Declared<'w, 'a>,
+    roots: &'w [&'w str],
     /// From the start to the part that is visited.
     path: Vec<usize>,
-    done: BTreeSet<usize>,
-    order: Vec<usize>,
+    /// Of the parts that were visited.
+    uses: BTreeMap<usize, Vec<Use>>,
 }
 
 impl Walk<'_, '_> {
     fn visit(&mut self, index: usize) -> Result<(), LinkError> {
-        if self.done.contains(&index) {
+        if self.uses.contains_key(&index) {
             return Ok(());
         }
         if let Some(begin) = self.path.iter().position(|&open| open == index) {
@@ -70,44 +105,48 @@ impl Walk<'_, '_> {
             return Err(LinkError::Circle { circle });
         }
         self.path.push(index);
-        for used in self.used_by(index)? {
-            self.visit(used)?;
+        let uses = self.used_by(index)?;
+        for used in &uses {
+            self.visit(used.part)?;
         }
         self.path.pop();
-        self.done.insert(index);
-        self.order.push(index);
+        self.uses.insert(index, uses);
         Ok(())
     }
 
     /// The parts that one uses, in the order in which it names them.
-    fn used_by(&self, index: usize) -> Result<Vec<usize>, LinkError> {
+    fn used_by(&self, index: usize) -> Result<Vec<Use>, LinkError> {
         let part = &self.parts[index];
-        let mut taken: BTreeSet<usize> = BTreeSet::new();
+        let mut taken: BTreeMap<usize, Use> = BTreeMap::new();
         let mut needed: BTreeSet<&str> = BTreeSet::new();
-        for name in part.items.iter().flat_map(|item| &item.references).copied() {
-            if part.header.needs.contains(&name) {
-                needed.insert(name);
-            }
-            let Some(&(from, _)) = self.declared.get(name) else { continue };
-            if from != index && !part.header.needs.contains(&name) {
-                taken.insert(from);
-                self.check_named(part, name, from)?;
+        for item in &part.items {
+            let by_root = self.roots.contains(&item.name);
+            for &name in &item.references {
+                if part.header.needs.contains(&name) {
+                    needed.insert(name);
+                    continue;
+                }
+                let Some(&(from, _)) = self.declared.get(name) else { continue };
+                if from != index {
+                    self.check_named(part, name, from)?;
+                    taken.entry(from).or_insert(Use { part: from, by_roots_alone: true }).by_roots_alone &=
+                        by_root;
+                }
             }
         }
         if matches!(part.kind, Kind::MaterialSet | Kind::Guest) {
-            return Ok(taken.into_iter().collect());
+            return Ok(taken.into_values().collect());
         }
         for &name in &part.header.needs {
             self.check_need(part, name, needed.contains(name))?;
         }
         let mut used = Vec::new();
         for file in &part.header.uses {
-            let named = |&place: &usize| self.parts[place].name == file;
-            if !(0..self.parts.len()).any(|place| named(&place)) {
+            if !self.parts.iter().any(|part| part.name == file) {
                 return Err(LinkError::NoSuchFile { file: part.name.to_owned(), used: file.clone() });
             }
             let before = used.len();
-            used.extend(taken.iter().copied().filter(named));
+            used.extend(taken.values().copied().filter(|used| self.parts[used.part].name == file));
             if used.len() == before {
                 return Err(LinkError::Unneeded { file: part.name.to_owned(), entry: file.clone() });
             }

@@ -66,23 +66,35 @@ fn entry_points_come_first_and_a_file_after_what_it_uses() {
     let linked = link(files, &set, &["main", "guest"], "").expect("links");
     let names = linked.modules.iter().map(|(_, name)| name.as_str()).collect::<Vec<_>>();
     let set_name = "the material set";
+    // What entry points alone use comes behind the rest of their file.
     let expected = [
         "passes/p",
         "mine",
         set_name,
         "passes/bound",
+        "passes/p",
         "lib/b",
         "lib/a",
         set_name,
         "lib/d",
         "light/l",
-        "passes/p",
     ];
     assert_eq!(names, expected);
     assert_eq!(linked.text.matches("// Of p.").count(), 1);
     let place = |text: &str| linked.text.find(text).unwrap_or_else(|| panic!("{text} in {}", linked.text));
     assert!(place("fn main()") < place("// ── the material set: choices ──"));
     assert!(place("fn used()") < place("// ── the material set: materials ──"));
+}
+
+#[test]
+fn bindings_stand_above_the_files_that_their_entry_points_use() {
+    let passes =
+        [module("passes/p", "// uses: lib/one\n\nvar<private> bound: u32;\n\nfn main() { one(); }\n")];
+    let rooms = [module("lib/one", "// needs: bound\n\nfn one() { _ = bound; }\n")];
+    let files = Files { rooms: &rooms, passes: &passes, guests: &[] };
+    let linked = link(files, &glue(""), &["main"], "").expect("links");
+    let names = linked.modules.iter().map(|(_, name)| name.as_str()).collect::<Vec<_>>();
+    assert_eq!(names, ["passes/p", "passes/p", "lib/one"]);
 }
 
 #[test]

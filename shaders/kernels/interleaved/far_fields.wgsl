@@ -23,7 +23,7 @@ fn load_far_field(blocks: texture_2d<u32>, block: vec2i) -> FarField {
 
 /// The far fields around a pixel: of its own block and of the eight blocks around that.
 ///
-/// Nine members, not an array: drivers copy an array to memory whenever a loop indexes it, and keep members in registers.
+/// Nine members, not an array: drivers copy an array to memory when a loop indexes it, and keep members in registers.
 struct FarFields {
     above_left: FarField,
     above: FarField,
