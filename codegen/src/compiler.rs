@@ -24,7 +24,7 @@ use crate::quality::{QualityReport, solve};
 
 pub use compilation::Compilation;
 pub(crate) use compilation::{PROFILE_CURVES_FILE, PROFILE_TABLES_FILE};
-use kernel_module::KernelModule;
+use kernel_module::{KernelModule, Wanted};
 use rows::Rows;
 pub use runtime_bindings::runtime_bindings;
 
@@ -70,6 +70,7 @@ pub struct Compiler {
     source: Source,
     runtime_path: String,
     gbuffer: bool,
+    debug_views: bool,
     passes: Vec<Pass>,
     estimator: Option<Estimator>,
     rejection: Option<Rejection>,
@@ -78,8 +79,8 @@ pub struct Compiler {
 
 /// A pass of the caller's own that is linked into the kernel module.
 ///
-/// It may use whatever the library, the kernels and the material set declare: `material_table`, `material_profiles`,
-/// `profile_radial_cdf`, `gather_importance_sampled`, …
+/// It may use whatever the shaders and the material set declare, and needs no `// uses:` line: `material_table`,
+/// `material_profiles`, `profile_radial_cdf`, `gather_importance_sampled`, …
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Pass {
     /// Name for messages and for the comment above its text.
@@ -108,6 +109,7 @@ impl Compiler {
             source,
             runtime_path: "::subsurface_runtime".to_owned(),
             gbuffer: true,
+            debug_views: false,
             passes: Vec::new(),
             estimator: None,
             rejection: None,
@@ -128,6 +130,14 @@ impl Compiler {
     #[must_use]
     pub fn without_gbuffer(mut self) -> Self {
         self.gbuffer = false;
+        self
+    }
+
+    /// Links what [`DebugView`](subsurface_kernel::DebugView) shows into the kernel module. Not there otherwise: it brings
+    /// an estimator of its own, which no frame needs.
+    #[must_use]
+    pub fn with_debug_views(mut self) -> Self {
+        self.debug_views = true;
         self
     }
 
@@ -219,8 +229,8 @@ impl Compiler {
         }
         let provenance = self.provenance(&report, &choices);
         let header = header(&set, &choices, quality.as_ref(), &provenance);
-        let generated =
-            KernelModule::generate(&set, &choices, self.gbuffer, &self.passes, &header, &mut report);
+        let wanted = Wanted { gbuffer: self.gbuffer, debug_views: self.debug_views, passes: &self.passes };
+        let generated = KernelModule::generate(&set, &choices, wanted, &header, &mut report);
         let Some(KernelModule { linked, emitted, validated, reflection, row_binding }) = generated else {
             return Err(report);
         };
@@ -364,6 +374,7 @@ impl Compiler {
         }
         add("runtime path", self.runtime_path.as_bytes());
         add("G-buffer pass", &[u8::from(self.gbuffer)]);
+        add("debug views", &[u8::from(self.debug_views)]);
         add("choices", format!("{choices:?}").as_bytes());
         let sources = report.sources();
         let mut files: Vec<_> =

@@ -1,5 +1,7 @@
 //! Frames that cannot be rendered.
 
+use subsurface_kernel::DebugView;
+
 use crate::target::Extent;
 
 /// A frame size that no texture can have.
@@ -43,6 +45,22 @@ pub enum ResizeError {
         "the pass was made without a stencil: leave `depth_stencil` out, or make the pass with its format"
     )]
     StencilUnexpected,
+}
+
+/// Why a pass cannot show a debug view.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum DebugViewError {
+    /// The kernel's module holds no debug views.
+    #[error(
+        "the kernel was compiled without debug views, so `{}` cannot be shown: compile it with \
+         `Compiler::with_debug_views`",
+        view.name()
+    )]
+    NotLinked {
+        /// The view.
+        view: DebugView,
+    },
 }
 
 /// Bytes that make no texture.

@@ -32,7 +32,7 @@ pub use wgpu;
 
 pub use bindings::kernel::GBufferVertex as Vertex;
 pub use camera::{Bounds, Camera};
-pub use error::{ResizeError, SizeError, TexelsError};
+pub use error::{DebugViewError, ResizeError, SizeError, TexelsError};
 pub use geometry::{Geometry, Object, SurfaceDescriptor, TexturePixels};
 pub use kernel_format::texture_format;
 pub use light::{DirectionalLight, LIGHT_CAPACITY};

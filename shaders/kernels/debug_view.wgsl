@@ -1,4 +1,6 @@
-// uses: gather/{footprint, input, point, tile}, kernels/{importance_sampled, probe}, kernels/interleaved/near, lib/{angle, noise}; needs: input_surface, most_taps, subsurface_view, taps_at
+// uses: gather/{footprint, input, point, tile}, kernels/{importance_sampled, probe}, kernels/interleaved/near, lib/{angle, noise}; needs: input_surface, subsurface_view, taps_at
+
+// Views are numbers of `DebugView`. Where nothing scatters alpha is 0, elsewhere 1.
 
 const DEBUG_TAPS: u32 = 1u;
 const DEBUG_FILTER_RADIUS: u32 = 2u;
@@ -7,7 +9,10 @@ const DEBUG_NEAR_SHARE: u32 = 4u;
 const DEBUG_VARIANCE: u32 = 5u;
 const DEBUG_TILES: u32 = 6u;
 
-/// Filter radius, pixels, that is drawn white.
+/// Taps per pixel that are drawn white: black is 0, white 128 and more.
+const DEBUG_LARGEST_TAPS: f32 = 128.0;
+
+/// Filter radius, pixels, that is drawn white: black is 0, white 128 and more.
 const DEBUG_LARGEST_RADIUS: f32 = 128.0;
 
 /// From black over red and yellow to white as `value` goes from 0 to 1.
@@ -21,8 +26,9 @@ fn debug_colour(pixel: vec2i, point: SurfacePoint) -> vec3f {
         case DEBUG_TAPS: {
             // A filter of less than a pixel takes none.
             let taps = select(taps_at(point), 0.0, footprint_taps(point, subsurface_view.taps) == 0u);
-            // The scale is logarithmic: a few taps and a thousand both show. White is the largest number.
-            return heat(log2(1.0 + taps) / log2(1.0 + max(most_taps(), 1.0)));
+            // The scale is logarithmic: a few taps and a hundred both show. The same number has the same colour
+            // whatever the estimator and its budget.
+            return heat(log2(1.0 + taps) / log2(1.0 + DEBUG_LARGEST_TAPS));
         }
         case DEBUG_FILTER_RADIUS: {
             return heat(log2(1.0 + point.filter_radius_pixels) / log2(1.0 + DEBUG_LARGEST_RADIUS));
@@ -56,4 +62,11 @@ fn tile_has_surface(pixel: vec2i) -> bool {
         }
     }
     return false;
+}
+
+/// Colour of a tile's pixel: green where the tile is listed, brighter where the pixel scatters, black at the border.
+fn tile_colour(pixel: vec2i, scatters: bool) -> vec3f {
+    let listed = select(vec3f(0.05, 0.05, 0.1), vec3f(0.1, 0.4, 0.15), tile_has_surface(pixel));
+    let is_border = any(pixel % i32(TILE_SIDE) == vec2i(0));
+    return select(listed + select(0.0, 0.4, scatters), vec3f(0.0), is_border);
 }

@@ -10,8 +10,3 @@ fn taps_at(point: SurfacePoint) -> f32 {
     let radius = f32(dense_radius(point));
     return 0.5 * TAU * radius * radius;
 }
-
-/// The largest number of them.
-fn most_taps() -> f32 {
-    return 0.5 * TAU * DENSE_LARGEST_RADIUS * DENSE_LARGEST_RADIUS;
-}

@@ -10,8 +10,3 @@ fn gather_at(point: SurfacePoint, pixel: vec2i) -> Gathered {
 fn taps_at(point: SurfacePoint) -> f32 {
     return f32(footprint_taps(point, subsurface_view.taps));
 }
-
-/// The largest number of them.
-fn most_taps() -> f32 {
-    return f32(min(subsurface_view.taps, LARGEST_TAP_COUNT));
-}

@@ -6,11 +6,6 @@ fn taps_at(point: SurfacePoint) -> f32 {
     return f32(footprint_taps(point, pixels * min(subsurface_view.taps, LARGEST_TAP_COUNT))) / f32(pixels);
 }
 
-/// The largest number of them.
-fn most_taps() -> f32 {
-    return f32(min(subsurface_view.taps, LARGEST_TAP_COUNT));
-}
-
 /// The pixels packed.
 @fragment
 fn pack_fragment(@builtin(position) position: vec4f) -> @location(0) vec2u {

@@ -5,11 +5,6 @@ fn taps_at(point: SurfacePoint) -> f32 {
     return taps_of_passes(footprint_taps(point, budget_beside_centre()));
 }
 
-/// The largest number of them.
-fn most_taps() -> f32 {
-    return taps_of_passes(min(budget_beside_centre(), LARGEST_TAP_COUNT));
-}
-
 /// What the first pass keeps of a pixel.
 @fragment
 fn first_fragment(@builtin(position) position: vec4f) -> @location(0) vec2u {

@@ -106,7 +106,9 @@ impl PictureFile {
 pub fn run(arguments: &RenderArguments) -> Result<(), Failure> {
     // Everything that can fail at once comes before what takes long.
     file::folder_of(arguments.out.path())?;
-    let materials = arguments.kernel.compile(&material_set::compiler(&arguments.materials)?)?;
+    let compiler = material_set::compiler(&arguments.materials)?;
+    let compiler = if arguments.debug.is_some() { compiler.with_debug_views() } else { compiler };
+    let materials = arguments.kernel.compile(&compiler)?;
     let material = material_set::number(&materials, &arguments.material)?;
     let mut studio = Studio::open(&materials, arguments.kernel.path())?;
     let scene = load_scene(&arguments.mesh)?;

@@ -124,10 +124,14 @@ fn draw(
     };
     let size = Extent::new(drawn_size.width, drawn_size.height);
     renderer.resize(&device.device, size).map_err(|error| beyond_device(&error))?;
-    renderer.subsurface.set_debug_view(match frame.shown {
+    let debug_view = match frame.shown {
         Shown::Debug(view) => Some(view),
         Shown::Subsurface | Shown::Surface => None,
-    });
+    };
+    renderer
+        .subsurface
+        .set_debug_view(debug_view)
+        .map_err(|error| Failure::new(error.to_string(), "please report this as a defect"))?;
     let objects = objects(device, renderer, frame)?;
     let view = prepare(device, renderer, frame, size);
 

@@ -1,6 +1,6 @@
 //! The kernel module of a set, from its materials to a validated text.
 
-use subsurface_kernel::{Estimator, RowBinding};
+use subsurface_kernel::{DebugView, Estimator, RowBinding};
 use subsurface_shaders::{GATHER, KERNELS, LIBRARY, LIGHT, Module, PASSES, PROFILES};
 
 use crate::compose::{Files, LinkError, Linked, link};
@@ -12,23 +12,16 @@ use crate::validate::{Validated, validate};
 
 use super::{DEFECT, Pass, parameter_table};
 
-/// Entry points of the subsurface pass of every kernel: those of the fragment path, then of the compute path.
-const SUBSURFACE_ENTRIES: [&str; 6] = [
-    "subsurface_vertex",
-    "subsurface_fragment",
-    "passthrough_fragment",
-    "debug_fragment",
-    "classify_compute",
-    "subsurface_compute",
-];
-
-/// Those of a kernel that has a stage before the last.
-const FIRST_ENTRIES: [&str; 2] = ["first_fragment", "first_compute"];
-
-/// That of a kernel whose stages read packed pixels; the compute path packs them as it classifies.
-const PACK_ENTRY: &str = "pack_fragment";
-
 const GBUFFER_ENTRIES: [&str; 2] = ["gbuffer_vertex", "gbuffer_fragment"];
+
+/// What a module holds beside the subsurface pass.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Wanted<'a> {
+    pub(super) gbuffer: bool,
+    pub(super) debug_views: bool,
+    /// Passes of the caller's own.
+    pub(super) passes: &'a [Pass],
+}
 
 /// A kernel module on its way to text.
 pub(super) struct KernelModule {
@@ -44,8 +37,7 @@ impl KernelModule {
     pub(super) fn generate(
         set: &MaterialSet,
         choices: &Choices,
-        gbuffer: bool,
-        passes: &[Pass],
+        wanted: Wanted<'_>,
         header: &str,
         report: &mut Report,
     ) -> Option<Self> {
@@ -65,21 +57,18 @@ impl KernelModule {
             .chain(PROFILES.iter().filter(in_use))
             .copied()
             .collect();
-        let of_house = pass_files(choices.estimator, gbuffer);
+        let of_house = pass_files(choices.estimator, wanted);
         let guests: Vec<Module> =
-            passes.iter().map(|pass| Module { name: pass.name, text: pass.text }).collect();
+            wanted.passes.iter().map(|pass| Module { name: pass.name, text: pass.text }).collect();
         let row_binding = parameter_table::declare(&mut emitted.glue, &rooms, set.materials.len());
-        let mut roots = SUBSURFACE_ENTRIES.to_vec();
-        if choices.estimator.has_two_stages() {
-            roots.extend(FIRST_ENTRIES);
+        let mut roots: Vec<&str> = choices.estimator.entry_points().collect();
+        if wanted.debug_views {
+            roots.push(DebugView::ENTRY_POINT);
         }
-        if choices.estimator.packs_pixels() {
-            roots.push(PACK_ENTRY);
-        }
-        if gbuffer {
+        if wanted.gbuffer {
             roots.extend(GBUFFER_ENTRIES);
         }
-        roots.extend(passes.iter().flat_map(|pass| pass.entry_points));
+        roots.extend(wanted.passes.iter().flat_map(|pass| pass.entry_points));
         let files = Files { rooms: &rooms, passes: &of_house, guests: &guests };
         let linked = match link(files, &emitted.glue, &roots, header) {
             Ok(linked) => linked,
@@ -122,7 +111,7 @@ fn link_diagnostic(set: &MaterialSet, error: &LinkError) -> Diagnostic {
 
 /// The passes of one kernel: what all kernels share, and what this one adds. Bindings come before the entry points whose
 /// files need them.
-fn pass_files(estimator: Estimator, gbuffer: bool) -> Vec<Module> {
+fn pass_files(estimator: Estimator, wanted: Wanted<'_>) -> Vec<Module> {
     let stem = estimator.stem();
     let mut stems = vec!["subsurface", "subsurface_fragment", stem];
     let compute = format!("{stem}_compute");
@@ -131,10 +120,15 @@ fn pass_files(estimator: Estimator, gbuffer: bool) -> Vec<Module> {
     } else {
         stems.extend(["single_stage", "subsurface_compute", "single_stage_compute"]);
     }
-    stems.push("subsurface_debug");
-    if gbuffer {
+    if wanted.debug_views {
+        stems.push("subsurface_debug");
+    }
+    if wanted.gbuffer {
         stems.push("gbuffer");
     }
     let pass = |stem: &&str| PASSES.iter().find(|module| module.name.strip_prefix("passes/") == Some(stem));
     stems.iter().filter_map(pass).copied().collect()
 }
+
+#[cfg(test)]
+mod tests;

@@ -12,7 +12,7 @@ use crate::reflect::reflect;
 use crate::validate::validate;
 use subsurface_kernel::OutputFormat;
 
-use super::{Compiler, DEFECT, KernelModule, ROW};
+use super::{Compiler, DEFECT, KernelModule, ROW, Wanted};
 
 /// Rust modules `shadow`, `composite` and `kernel` with the typed bindings of the runtime's own passes.
 ///
@@ -66,7 +66,8 @@ pub fn runtime_bindings() -> Result<String, Report> {
         rejection: set.rejection,
         output_format: OutputFormat::default(),
     };
-    let Some(kernel) = KernelModule::generate(&set, &choices, true, &[], "", &mut report) else {
+    let wanted = Wanted { gbuffer: true, debug_views: true, passes: &[] };
+    let Some(kernel) = KernelModule::generate(&set, &choices, wanted, "", &mut report) else {
         return Err(report);
     };
     let inner = bindings::module_tokens(

@@ -6,7 +6,7 @@ mod intermediate;
 mod path;
 
 use crate::bindings::kernel::{self, BindGroup1, ENTRY_DEBUG_FRAGMENT, ENTRY_SUBSURFACE_VERTEX};
-use crate::error::ResizeError;
+use crate::error::{DebugViewError, ResizeError};
 use crate::material_table::MaterialTable;
 use crate::target::{Extent, Target};
 use crate::view::SubsurfaceView;
@@ -60,7 +60,8 @@ pub struct SubsurfaceInputs<'a> {
 #[derive(Debug)]
 pub struct SubsurfacePass {
     stages: Stages,
-    debug: wgpu::RenderPipeline,
+    /// Of kernels that hold debug views.
+    debug: Option<wgpu::RenderPipeline>,
     debug_view: Option<DebugView>,
     table: MaterialTable,
     uniform: wgpu::Buffer,
@@ -147,15 +148,17 @@ impl SubsurfacePass {
                 Stages::Fragment(FragmentPath::new(device, kernel, &module, groups, format, stencil))
             }
         };
-        let debug = super::covering_pipeline(
-            device,
-            "SubsurfacePass debug view",
-            &module,
-            (ENTRY_SUBSURFACE_VERTEX, ENTRY_DEBUG_FRAGMENT),
-            &groups.map(Some),
-            &[Some(format.into())],
-            None,
-        );
+        let debug = kernel.module().has_debug_views().then(|| {
+            super::covering_pipeline(
+                device,
+                "SubsurfacePass debug view",
+                &module,
+                (ENTRY_SUBSURFACE_VERTEX, ENTRY_DEBUG_FRAGMENT),
+                &groups.map(Some),
+                &[Some(format.into())],
+                None,
+            )
+        });
         let uniform = device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("SubsurfacePass view"),
             size: size_of::<kernel::SubsurfaceView>() as u64,
@@ -190,8 +193,17 @@ impl SubsurfacePass {
 
     /// Shows how light is gathered in place of the diffused irradiance, or that again for `None`. Takes effect with the
     /// next [`prepare`](Self::prepare) and the [`encode`](Self::encode) after it, so call it before both.
-    pub fn set_debug_view(&mut self, view: Option<DebugView>) {
-        self.debug_view = view;
+    ///
+    /// # Errors
+    /// A view of a kernel that was compiled without debug views; what is shown stays.
+    pub fn set_debug_view(&mut self, view: Option<DebugView>) -> Result<(), DebugViewError> {
+        match view {
+            Some(view) if self.debug.is_none() => Err(DebugViewError::NotLinked { view }),
+            _ => {
+                self.debug_view = view;
+                Ok(())
+            }
+        }
     }
 
     /// Binds the inputs and makes the output anew if `size` changed. Call it again when an input view is replaced.
@@ -261,8 +273,8 @@ impl SubsurfacePass {
         let Some(bound) = &self.bound else { return };
         let groups = [&self.table.bind_group, &bound.bind_group];
         let output = &bound.output.view;
-        if self.debug_view.is_some() {
-            self.encode_debug_view(encoder, groups, output);
+        if let (Some(_), Some(pipeline)) = (self.debug_view, &self.debug) {
+            encode_debug_view(encoder, pipeline, groups, output);
             return;
         }
         match (&self.stages, &bound.frame) {
@@ -275,25 +287,25 @@ impl SubsurfacePass {
         }
     }
 
-    fn encode_debug_view(
-        &self,
-        encoder: &mut wgpu::CommandEncoder,
-        groups: [&wgpu::BindGroup; 2],
-        output: &wgpu::TextureView,
-    ) {
-        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some("SubsurfacePass debug view"),
-            color_attachments: &[super::cleared(output, wgpu::Color::TRANSPARENT)],
-            ..Default::default()
-        });
-        pass.set_bind_group(0, groups[0], &[]);
-        pass.set_bind_group(BindGroup1::INDEX, groups[1], &[]);
-        pass.set_pipeline(&self.debug);
-        pass.draw(0..3, 0..1);
-    }
-
     /// The diffused irradiance; `None` before the first [`resize`](Self::resize).
     pub fn output(&self) -> Option<&Target> {
         self.bound.as_ref().map(|bound| &bound.output)
     }
+}
+
+fn encode_debug_view(
+    encoder: &mut wgpu::CommandEncoder,
+    pipeline: &wgpu::RenderPipeline,
+    groups: [&wgpu::BindGroup; 2],
+    output: &wgpu::TextureView,
+) {
+    let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        label: Some("SubsurfacePass debug view"),
+        color_attachments: &[super::cleared(output, wgpu::Color::TRANSPARENT)],
+        ..Default::default()
+    });
+    pass.set_bind_group(0, groups[0], &[]);
+    pass.set_bind_group(BindGroup1::INDEX, groups[1], &[]);
+    pass.set_pipeline(pipeline);
+    pass.draw(0..3, 0..1);
 }

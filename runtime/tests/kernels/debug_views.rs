@@ -1,9 +1,9 @@
 //! The debug views show something, of every kernel.
 
 use crate::buffers::{Buffers, DISTANCE_MM, noise};
-use crate::setup::{Description, Diffuser, KERNELS, PATHS};
-use subsurface_codegen::Estimator;
-use subsurface_runtime::{DebugView, Path, SubsurfaceView};
+use crate::setup::{Description, Diffuser, KERNELS, PATHS, shared_gpu};
+use subsurface_codegen::{Compiler, Estimator};
+use subsurface_runtime::{DebugView, Path, SubsurfacePass, SubsurfaceView, wgpu};
 
 const SIZE: [u32; 2] = [70, 52];
 const TILE_SIDE: u32 = 16;
@@ -118,22 +118,63 @@ fn the_variance_is_of_light_in_any_unit() {
 }
 
 #[test]
-fn taps_go_from_none_to_their_largest_number() {
+fn taps_have_one_scale_for_every_estimator() {
     let buffers = Buffers::plane([20, 20], 0);
     for kernel in KERNELS {
         let mut diffuser = Diffuser::new(&Description::pair(kernel), Path::Compute);
-        // An even number too: separable kernels have odd ones.
-        for taps in [4, 17] {
-            let mut shown = |millimetres_per_pixel: f32| {
-                let view = SubsurfaceView::orthographic_distances(millimetres_per_pixel).with_taps(taps);
-                diffuser.show(DebugView::Taps, &view, &buffers)[0]
+        // Taps per pixel of a budget: two passes have both, Dense reads more than white stands for.
+        for (budget, taps) in [(1, 1.0), (4, 4.0), (17, 17.0), (64, 64.0)] {
+            let taps = match kernel {
+                // Taps on both sides of a centre: an even number is rounded up.
+                Estimator::Separable { .. } => 2.0 * (2.0 * (budget as f32 / 2.0).floor() + 1.0),
+                Estimator::Dense => 128.0,
+                Estimator::Interleaved { .. } | Estimator::ImportanceSampled { .. } => taps,
             };
-            let colours = [1e3, 3.0, 1e-3].map(&mut shown);
-            let [none, some, most] = colours.map(|[red, green, blue, _]| red + green + blue);
-            // Three for white, but for the rounding of two logarithms.
-            assert!(none == 0.0 && some > 0.0 && most > 2.999, "{kernel}, {taps} taps: {colours:?}");
-            // No other kernel's number grows with the footprint once its budget is reached.
-            assert!(kernel != Estimator::Dense || some < most, "{kernel}: {colours:?}");
+            let mut shown = |millimetres_per_pixel: f32| {
+                let view = SubsurfaceView::orthographic_distances(millimetres_per_pixel).with_taps(budget);
+                let [red, green, blue, alpha] = diffuser.show(DebugView::Taps, &view, &buffers)[0];
+                assert_eq!(alpha, 1.0, "{kernel}");
+                red + green + blue
+            };
+            // A footprint below a pixel takes none; a large one the whole budget.
+            let [none, all] = [1e3, 1e-3].map(&mut shown);
+            let expected = 3.0 * (1.0 + taps).log2() / 129f32.log2();
+            // Two logarithms of the device, of a few units in the last place.
+            let is_close = (all - expected.min(3.0)).abs() < 1e-3;
+            assert!(none == 0.0 && is_close, "{kernel}, {budget} taps: {none}, {all}, not {expected}");
         }
     }
+}
+
+#[test]
+fn alpha_is_zero_where_nothing_scatters() {
+    let buffers = scene();
+    let view = SubsurfaceView::perspective_distances(0.5, SIZE[1]);
+    let mut diffuser = Diffuser::new(&Description::pair(Estimator::default()), Path::Compute);
+    for debug_view in DebugView::ALL {
+        let picture = diffuser.show(debug_view, &view, &buffers);
+        for (pixel, surface) in picture.iter().zip(&buffers.surface) {
+            let expected = if surface[3] >= 0.0 { 1.0 } else { 0.0 };
+            assert_eq!(pixel[3], expected, "{}", debug_view.name());
+        }
+    }
+}
+
+#[test]
+fn a_kernel_without_debug_views_refuses_them() {
+    let gpu = shared_gpu();
+    let skin = "Material(profile: Burley(parametrization: Searchlight), mean_free_path_mm: (1.3, 0.95, 0.67), \
+                surface_albedo: (0.83, 0.64, 0.55))";
+    let compilation = Compiler::from_memory([("skin.ron", skin)]).compile();
+    let compilation = compilation.unwrap_or_else(|report| panic!("{report}"));
+    assert!(!compilation.wgsl().contains("fn debug"), "what no one asked for is linked");
+    let format = wgpu::TextureFormat::Rgba16Float;
+    let mut pass = gpu.validated(|| SubsurfacePass::new(&gpu.device, &compilation.parts, format, None));
+    let error = pass.set_debug_view(Some(DebugView::Taps)).expect_err("there is no view");
+    assert_eq!(
+        error.to_string(),
+        "the kernel was compiled without debug views, so `taps` cannot be shown: compile it with \
+         `Compiler::with_debug_views`"
+    );
+    assert_eq!(pass.set_debug_view(None), Ok(()));
 }

@@ -85,6 +85,7 @@ impl Description {
             (format!("material_{number:02}.ron"), material(stem, factor))
         });
         Compiler::from_memory(materials.chain(table_files()))
+            .with_debug_views()
             .estimator(self.kernel)
             .rejection(self.rejection)
             .output_format(OutputFormat::Rgba32Float)
@@ -221,9 +222,9 @@ impl Diffuser {
         view: &SubsurfaceView,
         buffers: &Buffers,
     ) -> Vec<[f32; 4]> {
-        self.pass().set_debug_view(Some(debug_view));
+        self.pass().set_debug_view(Some(debug_view)).expect("the kernels of the tests have debug views");
         let picture = self.diffuse(view, buffers);
-        self.pass().set_debug_view(None);
+        self.pass().set_debug_view(None).expect("no view asks for nothing");
         picture
     }
 
