@@ -3,6 +3,7 @@
 //! A kernel needs radii at given shares of the energy, and the inverse of a CDF costs more than a texel. So each model is
 //! tabulated here, per unit of its length, over the surface albedo and the share.
 
+use subsurface_kernel::constants::{CURVE_ROWS, CURVE_STEPS, EDGE_POWER};
 use subsurface_profile::{Channel, EdgeSpread, GaussianSumModel, Medium, Model, RadialProfile};
 
 use crate::material::{Material, MaterialSet};
@@ -10,7 +11,7 @@ use crate::source::Span;
 use crate::value::single;
 
 /// Texels of a row: intervals of the share.
-const TEXELS: usize = 64;
+const TEXELS: usize = CURVE_STEPS as usize;
 
 /// Rows of a model whose shape depends on the surface albedo.
 ///
@@ -27,12 +28,8 @@ const LAST_SHARE: f64 = 0.9999;
 /// Least relative step between neighbouring radii: eight steps of an f32, so that they differ on the GPU too.
 const LEAST_STEP: f64 = 1e-6;
 
-/// Knots of an edge-spread function lie at x = reach·t to this power: it is steepest at the edge. The shaders take the
-/// root.
-const EDGE_POWER: i32 = 4;
-
 /// Rows below each other: every device of WebGPU has textures of this height. Further rows stand beside them.
-const LARGEST_HEIGHT: usize = 8192;
+const LARGEST_HEIGHT: usize = CURVE_ROWS as usize;
 
 /// Where the rows of one material are.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -257,7 +257,7 @@ fn tabulated_knot(index: u32) -> TabulatedKnot {
 const GAUSSIAN_TERMS: &str = "\
 /// Term `index` of the Gaussian sums: weight (red, green, blue; their sum is 1 per channel and model), variance in mm².
 fn gaussian_sum_term(index: u32) -> vec4f {
-    return textureLoad(profile_curves, curve_place(i32(index / 64u), i32(index % 64u)), 0);
+    return textureLoad(profile_curves, curve_place(i32(index / CURVE_STEPS), i32(index % CURVE_STEPS)), 0);
 }
 
 ";

@@ -19,6 +19,7 @@
 mod bindings;
 mod compiler;
 mod compose;
+mod constants;
 mod curves;
 pub mod diagnostics;
 mod docs;

@@ -104,6 +104,9 @@ constants! {
     LIGHT_CAPACITY: U32(u32) = 4;
 }
 
+/// Pixels of a block.
+pub const PIXELS_OF_BLOCK: u32 = (BLOCK_SIDE * BLOCK_SIDE) as u32;
+
 /// Knots of an edge curve lie at this power of even steps: the edge spread is steepest at the edge. The shaders take the
 /// root by two square roots.
 pub const EDGE_POWER: i32 = 4;

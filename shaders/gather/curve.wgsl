@@ -1,16 +1,10 @@
-// uses: gather/material, the material set
+// uses: gather/material, kernel/constants, the material set
 
 // Quantile curves of the profiles, which the compiler bakes: radii are read, not found by iteration.
 //
 // A curve holds the quantile radius Q at 64 steps of t, u = 1 − (1 − t)², in lengths of its material. It belongs to one
 // surface albedo; texels hold the curve of their row and of the next, so that one load gives both neighbours: (lower
 // curve, its rise to the next step, upper curve, its rise).
-
-/// Steps of a curve.
-const CURVE_STEPS: f32 = 64.0;
-
-/// Rows of a column of curves: what the smallest texture limit of WebGPU holds.
-const CURVE_ROWS: i32 = 8192;
 
 /// A place between two curves: (row of the lower one, fraction of the upper one, length in mm that scales radii).
 fn albedo_curve(surface: MaterialSurface, surface_albedo: f32, length_mm: f32) -> vec3f {
@@ -28,7 +22,7 @@ fn channel_curve(surface: MaterialSurface, channel: u32) -> vec3f {
 
 /// Place of texel `step` of row `row`.
 fn curve_place(row: i32, step: i32) -> vec2i {
-    return vec2i(row / CURVE_ROWS * i32(CURVE_STEPS) + step, row % CURVE_ROWS);
+    return vec2i(row / i32(CURVE_ROWS) * i32(CURVE_STEPS) + step, row % i32(CURVE_ROWS));
 }
 
 /// Texel `step` of a row of the curves.
@@ -45,12 +39,12 @@ const SMALLEST_ROOT: f32 = 2.44140625e-4;
 /// come: what is weighted by it is not biased by the steps.
 fn curve_quantile(curve: vec3f, u: f32) -> vec2f {
     let root = sqrt(max(1.0 - u, 0.0));
-    let place = (1.0 - root) * CURVE_STEPS;
-    let step = min(floor(place), CURVE_STEPS - 1.0);
+    let place = (1.0 - root) * f32(CURVE_STEPS);
+    let step = min(floor(place), f32(CURVE_STEPS) - 1.0);
     let texel = curve_texel(i32(curve.x), i32(step));
     let start_and_rise = mix(texel.xy, texel.zw, curve.y);
     let radius = start_and_rise.x + start_and_rise.y * (place - step);
     // dr/du = dr/dt · dt/du, dt/du = 1 / (2 √(1 − u)).
-    let slope = start_and_rise.y * CURVE_STEPS * 0.5 / max(root, SMALLEST_ROOT);
+    let slope = start_and_rise.y * f32(CURVE_STEPS) * 0.5 / max(root, SMALLEST_ROOT);
     return curve.z * vec2f(radius, slope);
 }

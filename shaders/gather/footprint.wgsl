@@ -1,7 +1,4 @@
-// uses: gather/point, lib/angle
-
-/// Bound of every loop over taps.
-const LARGEST_TAP_COUNT: u32 = 4096u;
+// uses: gather/point, kernel/constants, lib/angle
 
 /// Taps for a point: a quarter of the pixels within its filter radius, up to the budget, as in Golubev 2018, "Efficient
 /// Screen-Space Subsurface Scattering Using Burley's Normalized Diffusion in Real-Time". A filter of less than a pixel

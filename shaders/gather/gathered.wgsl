@@ -1,4 +1,4 @@
-// uses: the material set
+// uses: kernel/constants, the material set
 
 /// Light that was gathered, and the energy that was found for it: 1 per channel where nothing was rejected.
 struct Gathered {
@@ -12,10 +12,6 @@ struct Gathered {
 fn together(a: Gathered, b: Gathered) -> Gathered {
     return Gathered(a.irradiance + b.irradiance, a.weight + b.weight);
 }
-
-/// Least energy that stands for all of it. Where taps found less than this share, the centre's own light fills it up:
-/// what little comes from a surface far behind must not be raised to a whole.
-const SMALLEST_ENERGY: f32 = 1e-3;
 
 /// A weight below this divides nothing.
 const SMALLEST_WEIGHT: f32 = 1e-12;

@@ -1,4 +1,4 @@
-// uses: gather/{curve, normal, profile, view}, the material set
+// uses: gather/{curve, normal, profile, view}, kernel/constants, the material set
 
 /// The point of a surface that light is gathered for.
 ///
@@ -27,9 +27,6 @@ struct SurfacePoint {
     /// See `surface_normal`.
     normal: vec3f,
 }
-
-/// Share of the light that counts as all of it where the reach of a profile is asked for.
-const FILTER_QUANTILE: f32 = 0.997;
 
 /// The point at `position`, with the profiles that its material has at this surface albedo, and the normal of `pixel`.
 /// The scale is within its limits.

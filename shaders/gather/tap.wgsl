@@ -1,8 +1,4 @@
-// uses: gather/{channel, gathered, input, point, rejection}, lib/angle; needs: input_pixel
-
-/// Largest weight of a tap. A narrow channel's density over the widest one's grows as the ratio of their lengths at
-/// small radii; a ratio of 1e4 and more belongs to materials whose narrow channel does not leave the pixel anyway.
-const LARGEST_WEIGHT: f32 = 1e4;
+// uses: gather/{channel, gathered, input, point, rejection}, kernel/constants, lib/angle; needs: input_pixel
 
 /// Taps farther than this many pixels count as this far: outside of any target, and exact as i32.
 const LARGEST_TAP_DISTANCE: f32 = 32768.0;

@@ -1,13 +1,6 @@
-// uses: gather/{footprint, input, point, tile}, kernels/{importance_sampled, probe}, kernels/interleaved/near, lib/{angle, noise}; needs: input_surface, subsurface_view, taps_at
+// uses: gather/{footprint, input, point, tile}, kernel/constants, kernels/{importance_sampled, probe}, kernels/interleaved/near, lib/{angle, noise}; needs: input_surface, subsurface_view, taps_at
 
 // Views are numbers of `DebugView`. Where nothing scatters alpha is 0, elsewhere 1.
-
-const DEBUG_TAPS: u32 = 1u;
-const DEBUG_FILTER_RADIUS: u32 = 2u;
-const DEBUG_REJECTED_ENERGY: u32 = 3u;
-const DEBUG_NEAR_SHARE: u32 = 4u;
-const DEBUG_VARIANCE: u32 = 5u;
-const DEBUG_TILES: u32 = 6u;
 
 /// Taps per pixel that are drawn white: black is 0, white 128 and more.
 const DEBUG_LARGEST_TAPS: f32 = 128.0;

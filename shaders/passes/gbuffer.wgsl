@@ -1,7 +1,4 @@
-// uses: gather/input, lib/{angle, numeric_limits}, light/{diffuse, directional_light, normal_map, shadow, specular, transmission}, the material set
-
-/// Lights that one frame can hold.
-const LIGHT_CAPACITY: u32 = 4u;
+// uses: gather/input, kernel/constants, lib/{angle, numeric_limits}, light/{diffuse, directional_light, normal_map, shadow, specular, transmission}, the material set
 
 /// Camera and lights of one frame.
 struct GBufferFrame {

@@ -1,4 +1,4 @@
-// uses: gather/{footprint, input, packed_pixel, point}, kernels/interleaved, kernels/interleaved/{block, block_light, far_fields, receiver, ring}, lib/shared_exponent, passes/{subsurface, subsurface_fragment}
+// uses: gather/{footprint, input, packed_pixel, point}, kernel/constants, kernels/interleaved, kernels/interleaved/{block_light, far_fields, receiver, ring}, lib/shared_exponent, passes/{subsurface, subsurface_fragment}
 
 /// Taps per pixel of the far field.
 fn taps_at(point: SurfacePoint) -> f32 {

@@ -1,4 +1,4 @@
-// uses: gather/tile, kernels/interleaved/{block, block_light, far_fields, rows}, lib/shared_exponent, passes/subsurface_compute
+// uses: gather/tile, kernel/constants, kernels/interleaved/{block_light, far_fields, rows}, lib/shared_exponent, passes/subsurface_compute
 
 /// Far fields and near shares of a tile's blocks.
 @compute @workgroup_size(8, 8)

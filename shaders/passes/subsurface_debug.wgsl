@@ -1,4 +1,4 @@
-// uses: gather/{input, pixel_point}, kernels/debug_view, passes/subsurface
+// uses: gather/{input, pixel_point}, kernel/constants, kernels/debug_view, passes/subsurface
 
 /// The debug view in place of the diffused irradiance; alpha is 0 where the pixel does not scatter.
 @fragment

@@ -3,6 +3,7 @@
 use crate::failure::Failure;
 use std::path::{Path, PathBuf};
 use subsurface_codegen::{Compilation, Compiler, Estimator, Material, OutputFormat, Report};
+use subsurface_kernel::constants::FILTER_QUANTILE;
 use subsurface_profile::{Channel, Medium, RadialProfile};
 
 /// A material, its profile, and how to compile it with any kernel.
@@ -16,9 +17,6 @@ pub struct Subject {
     is_alone: bool,
     material: Material,
 }
-
-/// Share of the light within the filter radius, as `FILTER_QUANTILE` of the shaders.
-const FILTER_QUANTILE: f64 = 0.997;
 
 /// Radii that stand for a profile: the mean of so many quantiles is the mean radius to four digits.
 const QUANTILES: u32 = 4096;

@@ -4,6 +4,7 @@ use subsurface_kernel::{DebugView, Estimator, RowBinding};
 use subsurface_shaders::{GATHER, KERNELS, LIBRARY, LIGHT, Module, PASSES, PROFILES};
 
 use crate::compose::{Files, LinkError, Linked, link};
+use crate::constants::shared_constants;
 use crate::diagnostics::{Diagnostic, Report};
 use crate::emit::{Choices, Emitted, emit, material_constant};
 use crate::material::MaterialSet;
@@ -56,6 +57,7 @@ impl KernelModule {
             .flatten()
             .chain(PROFILES.iter().filter(in_use))
             .copied()
+            .chain([shared_constants()])
             .collect();
         let of_house = pass_files(choices.estimator, wanted);
         let guests: Vec<Module> =

@@ -1,21 +1,14 @@
 //! Twin of `shaders/kernels/far_field.wgsl`: what a block gathers from beyond the ring.
 
 use std::f64::consts::TAU;
+use subsurface_kernel::constants::{
+    BLOCK_SIDE, FAR_QUANTILE, FAR_RADIUS_PIXELS, FAR_STRETCH, LATTICE_SLICES,
+};
 
 use super::gathered::Gathered;
-use super::near_field::FAR_RADIUS_PIXELS;
 use super::patch::Patch;
 use super::point::{Point, Tap, pixel_at, turned};
 use super::scene::Scene;
-
-/// Radii are drawn from the widest profile made wider by this factor.
-pub(super) const FAR_STRETCH: f64 = 1.2;
-
-/// Share of the stretched profile that is sampled.
-pub(super) const FAR_QUANTILE: f64 = 0.98;
-
-/// Slices of the common lattice: one for each block of 2×2 blocks.
-pub(super) const LATTICE_SLICES: usize = 4;
 
 /// The taps of all slices of the lattice.
 #[derive(Debug)]
@@ -31,14 +24,14 @@ impl Lattice {
         let widest = &point.optics.channels[point.optics.widest];
         let u_inner = widest.profile.radial_cdf(FAR_RADIUS_PIXELS * point.pixel / FAR_STRETCH);
         if taps == 0 || u_inner >= FAR_QUANTILE {
-            return Self { slices: vec![Vec::new(); LATTICE_SLICES], share: 0.0 };
+            return Self { slices: vec![Vec::new(); LATTICE_SLICES as usize], share: 0.0 };
         }
         let u_range = FAR_QUANTILE - u_inner;
         let slice = |slice: usize| {
-            let start = TAU * slice as f64 / LATTICE_SLICES as f64;
+            let start = TAU * slice as f64 / f64::from(LATTICE_SLICES);
             let mut direction = [start.cos(), start.sin()];
             let taps = (0..taps).map(|tap| {
-                let within = (slice as f64 + 0.5) / LATTICE_SLICES as f64;
+                let within = (slice as f64 + 0.5) / f64::from(LATTICE_SLICES);
                 let stratum = (f64::from(tap) + within) / f64::from(taps);
                 let (radius, slope) = point.quantile(u_inner + stratum * u_range);
                 let here = direction;
@@ -47,7 +40,7 @@ impl Lattice {
             });
             taps.collect()
         };
-        Self { slices: (0..LATTICE_SLICES).map(slice).collect(), share: u_range / f64::from(taps) }
+        Self { slices: (0..LATTICE_SLICES as usize).map(slice).collect(), share: u_range / f64::from(taps) }
     }
 
     /// The far field of a block whose middle is at `position` of the scene, `depth` pixels away.
@@ -70,12 +63,6 @@ impl Lattice {
         far
     }
 }
-
-/// Side of a block, pixels.
-pub(super) const BLOCK_SIDE: i32 = 2;
-
-/// Pixels that share their taps.
-pub(super) const PIXELS_OF_BLOCK: u32 = 4;
 
 /// Slice of the lattice that a block takes.
 pub(super) fn lattice_slice([x, y]: [i32; 2]) -> usize {

@@ -1,5 +1,7 @@
 //! Light on its way to a pixel: the twin of `shaders/kernels/rejection.wgsl`.
 
+use subsurface_kernel::constants::SMALLEST_ENERGY;
+
 /// One number per channel: red, green, blue.
 pub(super) type Rgb = [f64; 3];
 
@@ -11,9 +13,6 @@ pub(super) struct Gathered {
     /// Σ wᵢ
     pub(super) weight: Rgb,
 }
-
-/// Least energy that stands for all of it: where taps found less, the pixel's own light fills it up.
-pub(super) const SMALLEST_ENERGY: f64 = 1e-3;
 
 impl Gathered {
     /// Adds white or grey light.

@@ -1,23 +1,14 @@
 //! Twin of `shaders/kernels/interleaved.wgsl`.
 
-use super::far_field::{BLOCK_SIDE, Block, Lattice, PIXELS_OF_BLOCK};
+use super::far_field::{Block, Lattice};
 use super::gathered::{Gathered, Rgb};
 use super::near_field::NearField;
 use super::patch::{PATCH_SIDE, Patch};
 use super::point::Point;
 use super::scene::Scene;
-
-/// Depth difference, in pixels, up to which a far field counts.
-pub(super) const BLOCK_DEPTH_PIXELS: f64 = 6.0;
-
-/// Shares of a window in the block on a pixel's farther side, in its own, and on its nearer side: in all slices alike.
-const EVEN_WINDOW: [f64; 3] = [0.125, 0.5, 0.375];
-
-/// The same, linear between the middles of the blocks.
-const LINEAR_WINDOW: [f64; 3] = [0.0, 0.75, 0.25];
-
-/// Taps per pixel up to which the window is the even one.
-pub(super) const EVEN_WINDOW_TAPS: f64 = 4.0;
+use subsurface_kernel::constants::{
+    BLOCK_DEPTH_PIXELS, BLOCK_SIDE, EVEN_WINDOW, EVEN_WINDOW_TAPS, LINEAR_WINDOW, PIXELS_OF_BLOCK,
+};
 
 /// The near field and the lattice of one footprint.
 #[derive(Debug)]

@@ -1,18 +1,11 @@
 //! Twin of `shaders/kernels/near_field.wgsl`: what stays within a pixel and its eight neighbours.
 
 use super::gathered::{Gathered, Rgb};
-use super::interleaved::BLOCK_DEPTH_PIXELS;
 use super::point::Point;
 use super::scene::Scene;
-
-/// Radius of the disc with the area of a pixel, pixels: 1 / √π.
-pub(super) const NEAR_RADIUS_PIXELS: f64 = 0.564_189_583_547_756_3;
-
-/// Radius of the disc with the area of nine pixels, pixels: 3 / √π.
-pub(super) const FAR_RADIUS_PIXELS: f64 = 3.0 * NEAR_RADIUS_PIXELS;
-
-/// ½ log₃ 2
-pub(super) const HALF_LOG_3_OF_2: f64 = 0.315_464_876_785_728_7;
+use subsurface_kernel::constants::{
+    BLOCK_DEPTH_PIXELS, FAR_RADIUS_PIXELS, HALF_LOG_3_OF_2, NEAR_RADIUS_PIXELS,
+};
 
 /// The neighbours beside a pixel, and across its corners.
 const BESIDE: [[i32; 2]; 4] = [[-1, 0], [1, 0], [0, -1], [0, 1]];

@@ -1,5 +1,6 @@
 //! The profiles of one material, with tables of what is asked for often.
 
+use subsurface_kernel::constants::FILTER_QUANTILE;
 use subsurface_profile::{Channel, Medium, Model, RadialProfile};
 
 use crate::curves::{Knots, NoProfile, depends_on_channel, quantiles};
@@ -123,9 +124,6 @@ impl Optics {
         Ok(Self { channels, widest, mean_radius, densities })
     }
 }
-
-/// Share of the light that counts as all of it where the reach of a profile is asked for.
-pub(super) const FILTER_QUANTILE: f64 = 0.997;
 
 /// (radius, its derivative by u) at the quantile `u` of a curve: twin of `curve_quantile`.
 pub(super) fn quantile(curve: &Knots, u: f64) -> (f64, f64) {

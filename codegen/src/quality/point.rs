@@ -1,9 +1,10 @@
 //! A material at a footprint: the twin of `SurfacePoint` in `shaders/kernels/surface_point.wgsl`.
 
 use std::f64::consts::TAU;
+use subsurface_kernel::constants::{FILTER_QUANTILE, LARGEST_WEIGHT};
 
 use super::gathered::Rgb;
-use super::optics::{FILTER_QUANTILE, Optics, quantile};
+use super::optics::{Optics, quantile};
 
 /// A material at a footprint. Lengths without a unit in their name are in that of the optics.
 #[derive(Clone, Copy, Debug)]
@@ -78,9 +79,6 @@ pub(super) struct Tap {
     /// Its weight on a flat surface.
     flat_weight: Rgb,
 }
-
-/// Largest weight of a tap, see `importance_sampled.wgsl`.
-pub(super) const LARGEST_WEIGHT: f64 = 1e4;
 
 impl Tap {
     /// The tap of a quantile (radius, its derivative by u) in a direction.

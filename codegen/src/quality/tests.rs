@@ -12,7 +12,6 @@ use super::report::stated;
 use super::scene::Scene;
 use super::twin::Twin;
 use super::{Quality, QualityReport, QualityRequest, Tier, solve};
-use super::{far_field, gathered, interleaved, near_field, optics, point};
 use crate::diagnostics::Diagnostic;
 use crate::load_memory;
 use crate::material::MaterialSet;
@@ -396,31 +395,5 @@ fn stated_errors_are_bounds_of_three_digits() {
     ] {
         assert_eq!(stated(error).to_string(), text);
         assert!(stated(error) >= error);
-    }
-}
-
-#[test]
-fn constants_are_those_of_the_shaders() {
-    let text: String = subsurface_shaders::modules().map(|module| module.text).collect();
-    let constant = |name: &str| -> f64 {
-        let (_, rest) = text.split_once(&format!("const {name}: ")).unwrap_or_else(|| panic!("no {name}"));
-        let value = rest.split_once("= ").and_then(|(_, rest)| rest.split_once(';')).expect("a value").0;
-        value.parse().unwrap_or_else(|_| panic!("{name} is {value}"))
-    };
-    for (name, twin) in [
-        ("FAR_STRETCH", far_field::FAR_STRETCH),
-        ("FAR_QUANTILE", far_field::FAR_QUANTILE),
-        ("LATTICE_SLICES", far_field::LATTICE_SLICES as f64),
-        ("BLOCK_SIDE", f64::from(far_field::BLOCK_SIDE)),
-        ("BLOCK_DEPTH_PIXELS", interleaved::BLOCK_DEPTH_PIXELS),
-        ("NEAR_RADIUS_PIXELS", near_field::NEAR_RADIUS_PIXELS),
-        ("FAR_RADIUS_PIXELS", near_field::FAR_RADIUS_PIXELS),
-        ("HALF_LOG_3_OF_2", near_field::HALF_LOG_3_OF_2),
-        ("FILTER_QUANTILE", optics::FILTER_QUANTILE),
-        ("SMALLEST_ENERGY", gathered::SMALLEST_ENERGY),
-        ("LARGEST_WEIGHT", point::LARGEST_WEIGHT),
-    ] {
-        // The shaders' have the digits of an f32.
-        assert!((constant(name) / twin - 1.0).abs() < 1e-6, "{name}: {} and {twin}", constant(name));
     }
 }

@@ -1,11 +1,11 @@
 //! A kernel at a footprint, whichever it is.
 
 use subsurface_kernel::Estimator;
+use subsurface_kernel::constants::{EVEN_WINDOW_TAPS, PIXELS_OF_BLOCK};
 
-use super::far_field::PIXELS_OF_BLOCK;
 use super::gathered::Rgb;
 use super::importance_sampled::ImportanceSampled;
-use super::interleaved::{EVEN_WINDOW_TAPS, Interleaved};
+use super::interleaved::Interleaved;
 use super::patch::Patch;
 use super::point::Point;
 use super::scene::Scene;

@@ -1,9 +1,6 @@
-// uses: the material set
+// uses: kernel/constants, the material set
 
 // Which surfaces belong together.
-
-/// Depth difference, in pixels, up to which pixels of one material belong to one block or to one far field.
-const BLOCK_DEPTH_PIXELS: f32 = 6.0;
 
 /// Reciprocal of the depth difference up to which pixels belong together, mm⁻¹; 0 where distance does not reject.
 fn depth_scale(span_mm: f32) -> f32 {

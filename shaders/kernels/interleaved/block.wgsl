@@ -1,9 +1,6 @@
-// uses: gather/{input, material, mean_free_path_scale, packed_pixel, view}, kernels/interleaved/agreement, the material set; needs: subsurface_view, surface_texture
+// uses: gather/{input, material, mean_free_path_scale, packed_pixel, view}, kernel/constants, kernels/interleaved/agreement, the material set; needs: subsurface_view, surface_texture
 
 // Blocks of 2×2 pixels share one far field.
-
-/// Side of a block, pixels.
-const BLOCK_SIDE: i32 = 2;
 
 /// The pixels of a block that are of its first translucent pixel's material and depth, as one surface.
 struct Block {

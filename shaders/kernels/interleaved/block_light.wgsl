@@ -1,4 +1,4 @@
-// uses: gather/{footprint, gathered, input, packed_pixel, point, view}, kernels/interleaved/{block, far, near}, lib/shared_exponent, the material set; needs: subsurface_view
+// uses: gather/{footprint, gathered, input, packed_pixel, point, view}, kernel/constants, kernels/interleaved/{block, far, near}, lib/shared_exponent, the material set; needs: subsurface_view
 
 /// What a block keeps for its pixels: its far field, and their near field.
 struct BlockLight {

@@ -1,16 +1,6 @@
-// uses: gather/{curve, gathered, packed_pixel, point, tap}, kernels/interleaved/near, lib/angle, the material set
+// uses: gather/{curve, gathered, packed_pixel, point, tap}, kernel/constants, lib/angle, the material set
 
 // The light from beyond the ring of a pixel's neighbours: sampled.
-
-/// Radii are drawn from the widest profile made wider by this factor: the other channels' tails and depth differences
-/// need more of the far taps than the profile itself has.
-const FAR_STRETCH: f32 = 1.2;
-
-/// Share of the stretched profile that is sampled; what lies beyond is renormalized.
-const FAR_QUANTILE: f32 = 0.98;
-
-/// Slices of the common lattice: one for each block of any 2×2 blocks.
-const LATTICE_SLICES: f32 = 4.0;
 
 /// The golden ratio's fraction, turns: from one frame to the next.
 const GOLDEN_FRACTION: f32 = 0.61803399;
@@ -37,10 +27,10 @@ fn gather_far_field(
         return gathered;
     }
     let u_range = FAR_QUANTILE - u_inner;
-    let start = TAU * fract(slice / LATTICE_SLICES + GOLDEN_FRACTION * f32(frame % 64u));
+    let start = TAU * fract(slice / f32(LATTICE_SLICES) + GOLDEN_FRACTION * f32(frame % 64u));
     var direction = vec2f(cos(start), sin(start));
     for (var tap = 0u; tap < taps; tap += 1u) {
-        let stratum = (f32(tap) + (slice + 0.5) / LATTICE_SLICES) / f32(taps);
+        let stratum = (f32(tap) + (slice + 0.5) / f32(LATTICE_SLICES)) / f32(taps);
         let quantile = FAR_STRETCH * curve_quantile(point.widest.curve, u_inner + stratum * u_range);
         let position = tap_position(point, quantile.x, direction);
         let pixel = unpack_pixel(load_packed_pixel(pixels, position));

@@ -1,15 +1,6 @@
-// uses: gather/{channel, gathered, point}
+// uses: gather/{channel, gathered, point}, kernel/constants
 
 // The light that stays within a pixel and its eight neighbours.
-
-/// Radius of the disc with the area of a pixel, pixels: 1 / √π.
-const NEAR_RADIUS_PIXELS: f32 = 0.56418958;
-
-/// Radius of the disc with the area of nine pixels, pixels: 3 / √π.
-const FAR_RADIUS_PIXELS: f32 = 1.6925688;
-
-/// ½ log₃ 2
-const HALF_LOG_3_OF_2: f32 = 0.31546488;
 
 /// Shares of a profile's light that a pixel and each pixel of the ring around it have on a flat surface.
 struct NearField {

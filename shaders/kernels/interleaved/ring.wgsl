@@ -1,4 +1,4 @@
-// uses: gather/{gathered, input, rejection}, kernels/interleaved/{agreement, receiver}, the material set
+// uses: gather/{gathered, input, rejection}, kernel/constants, kernels/interleaved/{agreement, receiver}, the material set
 
 /// The eight pixels around one: beside it, and across its corners. Members, not an array, for the reason that
 /// `FarFields` gives.

@@ -1,4 +1,4 @@
-// uses: gather/{input, packed_pixel}, kernels/interleaved, kernels/interleaved/{block, far_fields, receiver, ring}; needs: diffused_target, irradiance_texture, pixel_source, subsurface_view
+// uses: gather/{input, packed_pixel}, kernel/constants, kernels/interleaved, kernels/interleaved/{far_fields, receiver, ring}; needs: diffused_target, irradiance_texture, pixel_source, subsurface_view
 
 // Rows of four pixels: what an invocation of the compute path loads once for the rings of a block's four pixels.
 

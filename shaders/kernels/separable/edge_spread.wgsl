@@ -1,4 +1,4 @@
-// uses: gather/{curve, gathered, material, profile}
+// uses: gather/{curve, gathered, material, profile}, kernel/constants
 
 /// Fraction of the light beyond a line `offset_mm` from an edge, per channel, which is 1 − F.
 fn beyond_line(surface: MaterialSurface, profiles: ChannelProfiles, offset_mm: f32) -> vec3f {
@@ -16,8 +16,8 @@ fn curve_beyond_line(surface: MaterialSurface, curve: vec3f, offset_mm: f32) -> 
     if offset_mm >= reach_mm {
         return 0.0;
     }
-    let place = sqrt(sqrt(clamp(offset_mm / reach_mm, 0.0, 1.0))) * CURVE_STEPS;
-    let step = min(floor(place), CURVE_STEPS - 1.0);
+    let place = sqrt(sqrt(clamp(offset_mm / reach_mm, 0.0, 1.0))) * f32(CURVE_STEPS);
+    let step = min(floor(place), f32(CURVE_STEPS) - 1.0);
     let row = i32(curve.x) - i32(surface.first_curve) + i32(surface.first_edge);
     let texel = curve_texel(row, i32(step));
     let start_and_rise = mix(texel.xy, texel.zw, curve.y);

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::compiler::Compiler;
+use crate::constants::shared_constants;
 use crate::emit::{Choices, emit};
 use subsurface_kernel::{Estimator, OutputFormat};
 use subsurface_shaders::{GATHER, KERNELS, LIBRARY, LIGHT, PASSES, PROFILES, modules};
@@ -66,8 +67,12 @@ fn check(files: Files<'_>, glue: &Glue, may_be_open: &[&str]) {
 
 #[test]
 fn every_file_keeps_to_its_header() {
-    let rooms: Vec<Module> =
-        [LIBRARY, PROFILES, GATHER, KERNELS, LIGHT].into_iter().flatten().copied().collect();
+    let rooms: Vec<Module> = [LIBRARY, PROFILES, GATHER, KERNELS, LIGHT]
+        .into_iter()
+        .flatten()
+        .copied()
+        .chain([shared_constants()])
+        .collect();
     for estimator in Estimator::ALL {
         let passes: Vec<Module> = PASSES.iter().filter(|file| is_of(estimator, file)).copied().collect();
         // What the passes of one stage declare for their kernels is open where there are two stages.
@@ -83,15 +88,17 @@ fn every_file_keeps_to_its_header() {
 
 #[test]
 fn rooms_look_down_only() {
+    // The room of the constants that Rust shares.
+    const CONSTANTS: &str = "kernel";
     // What each room may use, itself included.
     let below = |room: &str| -> &[&str] {
         match room {
             "lib" => &["lib"],
             "profiles" => &["profiles", "lib"],
-            "gather" => &["gather", "lib", GLUE],
-            "kernels" => &["kernels", "gather", "lib", GLUE],
-            "light" => &["light", "gather", "lib", GLUE],
-            "passes" => &["passes", "kernels", "light", "gather", "lib", GLUE],
+            "gather" => &["gather", "lib", CONSTANTS, GLUE],
+            "kernels" => &["kernels", "gather", "lib", CONSTANTS, GLUE],
+            "light" => &["light", "gather", "lib", CONSTANTS, GLUE],
+            "passes" => &["passes", "kernels", "light", "gather", "lib", CONSTANTS, GLUE],
             other => panic!("no rule for the room {other}"),
         }
     };

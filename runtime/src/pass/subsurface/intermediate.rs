@@ -3,6 +3,7 @@
 use crate::error::SizeError;
 use crate::target::{Extent, Target};
 use subsurface_kernel::Estimator;
+use subsurface_kernel::constants::BLOCK_SIDE;
 
 /// A texture between two stages.
 #[derive(Clone, Copy, Debug)]
@@ -42,12 +43,12 @@ pub(super) fn intermediates(kind: Estimator) -> &'static [Intermediate] {
         Estimator::Interleaved { .. } => &[
             Intermediate {
                 format: wgpu::TextureFormat::Rgba32Uint,
-                side: 2,
+                side: BLOCK_SIDE as u32,
                 label: "SubsurfacePass far field of blocks",
             },
             Intermediate {
                 format: wgpu::TextureFormat::Rg32Uint,
-                side: 2,
+                side: BLOCK_SIDE as u32,
                 label: "SubsurfacePass rings of blocks",
             },
         ],
