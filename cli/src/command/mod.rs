@@ -7,6 +7,7 @@
 )]
 
 pub mod adapter;
+#[cfg(feature = "analysis")]
 pub mod bench;
 pub mod build;
 pub mod check;
@@ -16,8 +17,11 @@ pub mod kernel;
 mod lights;
 mod material_set;
 mod number;
+#[cfg(feature = "analysis")]
 mod output;
+#[cfg(feature = "analysis")]
 pub mod profile;
+#[cfg(feature = "analysis")]
 pub mod reference;
 pub mod render;
 mod view;
@@ -32,7 +36,7 @@ use clap::{Parser, Subcommand};
 Examples:
   subsurface render --out bust.png
   subsurface check materials
-  subsurface profile eval --model burley_diffuse --surface-albedo 0.8 --mean-free-path-mm 1.3 --radii 0,0.5,1
+  subsurface contact-sheet --out sheet.png
 
 Exit codes: 0 success, 1 the command reported an error, 2 it was called wrongly, 130 it was interrupted.")]
 pub struct Arguments {
@@ -60,8 +64,10 @@ pub enum Command {
     /// subsurface.tables (its radii for the kernel). The same materials give the same bytes. For Rust projects, `subsurface_codegen::Compiler` in build.rs does the same at every build.
     Build(build::BuildArguments),
     /// Evaluate, judge, fit and draw radial diffusion profiles, in double precision.
+    #[cfg(feature = "analysis")]
     Profile(profile::ProfileArguments),
     /// Ground truth by Monte Carlo: simulate, merge, tabulate and check photon walks.
+    #[cfg(feature = "analysis")]
     Reference(reference::ReferenceArguments),
     /// Run the subsurface pass alone on your own buffers (OpenEXR in and out).
     ///
@@ -78,6 +84,7 @@ pub enum Command {
     /// alone; everything else of the material stays.
     ContactSheet(contact_sheet::ContactSheetArguments),
     /// Measure kernels: errors and times side by side.
+    #[cfg(feature = "analysis")]
     Bench(bench::BenchArguments),
     /// Name the graphics adapter that pictures are drawn on.
     Adapter(adapter::AdapterArguments),
@@ -89,10 +96,13 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         Command::Render(arguments) => render::run(arguments),
         Command::Check(arguments) => check::run(arguments),
         Command::Build(arguments) => build::run(arguments),
+        #[cfg(feature = "analysis")]
         Command::Profile(arguments) => profile::run(arguments),
+        #[cfg(feature = "analysis")]
         Command::Reference(arguments) => reference::run(arguments),
         Command::Diffuse(arguments) => diffuse::run(arguments),
         Command::ContactSheet(arguments) => contact_sheet::run(arguments),
+        #[cfg(feature = "analysis")]
         Command::Bench(arguments) => bench::run(arguments),
         Command::Adapter(arguments) => adapter::run(arguments),
     }
