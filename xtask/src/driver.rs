@@ -8,28 +8,79 @@ use crate::shell::{Failure, cargo, run};
 /// Debian's software Vulkan driver (lavapipe) and the loader.
 const PACKAGES: [&str; 2] = ["mesa-vulkan-drivers", "libvulkan1"];
 
+/// Where Vulkan's loader looks for the description of a driver.
+const DESCRIPTIONS: [&str; 4] = [
+    "/usr/share/vulkan/icd.d",
+    "/usr/local/share/vulkan/icd.d",
+    "/etc/vulkan/icd.d",
+    "/usr/local/etc/vulkan/icd.d",
+];
+
+/// How the command line is built.
+#[derive(Clone, Copy)]
+pub(crate) enum Build {
+    /// With all commands, as the tests run it.
+    Test,
+    /// With those that draw pictures alone, optimized as far as a few pictures are worth: see `[profile.demo]`.
+    Demo,
+}
+
+impl Build {
+    /// The arguments that select the program for `cargo build` and `cargo run`.
+    pub(crate) fn arguments(self) -> &'static [&'static str] {
+        match self {
+            Self::Test => &["--package", "subsurface-cli"],
+            Self::Demo => &["--package", "subsurface-cli", "--profile", "demo", "--no-default-features"],
+        }
+    }
+}
+
 /// Builds the command line and asks it for an adapter; installs a software driver if there is none.
-pub(crate) fn ensure(profile: &str) -> Result<(), Failure> {
-    run(cargo().args(["build", "--package", "subsurface-cli", "--profile", profile]))?;
-    if has_adapter(profile) {
+pub(crate) fn ensure(build: Build) -> Result<(), Failure> {
+    // A Linux without any driver needs one for sure: then the download does not wait for the build.
+    let installing = (cfg!(target_os = "linux") && has_apt_get() && !is_described()).then(|| {
+        println!("No Vulkan driver: installing {} during the build …", PACKAGES.join(" "));
+        std::thread::spawn(install)
+    });
+    let built = run(cargo().arg("build").args(build.arguments()));
+    let installed = installing.map(|thread| {
+        thread.join().unwrap_or_else(|_| Err(Failure("the installation broke off".to_owned())))
+    });
+    built?;
+    if has_adapter(build) {
         return Ok(());
     }
-    if !Path::new("/usr/bin/apt-get").exists() {
-        return Err(Failure(remedy("this system has no apt-get")));
+    match installed {
+        Some(result) => result?,
+        None if has_apt_get() => {
+            println!("No graphics adapter: installing {} …", PACKAGES.join(" "));
+            install()?;
+        }
+        None => return Err(Failure(remedy("this system has no apt-get"))),
     }
-    println!("No graphics adapter: installing {} …", PACKAGES.join(" "));
-    install()?;
-    if has_adapter(profile) {
+    if has_adapter(build) {
         Ok(())
     } else {
         Err(Failure(remedy("the packages are installed, but offer no adapter")))
     }
 }
 
+fn has_apt_get() -> bool {
+    Path::new("/usr/bin/apt-get").exists()
+}
+
+/// True if a Vulkan driver is installed, whether it works or not.
+fn is_described() -> bool {
+    let is_named =
+        ["VK_DRIVER_FILES", "VK_ICD_FILENAMES"].iter().any(|name| std::env::var_os(name).is_some());
+    let has_file = |folder: &str| std::fs::read_dir(folder).is_ok_and(|mut files| files.next().is_some());
+    is_named || DESCRIPTIONS.iter().any(|folder| has_file(folder))
+}
+
 /// True if `subsurface adapter` finds one.
-fn has_adapter(profile: &str) -> bool {
+fn has_adapter(build: Build) -> bool {
     let mut command = cargo();
-    command.args(["run", "--quiet", "--package", "subsurface-cli", "--profile", profile, "--", "adapter"]);
+    command.args(["run", "--quiet"]).args(build.arguments()).args(["--", "adapter"]);
     command.status().is_ok_and(|status| status.success())
 }
 

@@ -4,10 +4,14 @@
 
 mod accuracy;
 mod driver;
+mod gate;
 mod shell;
+mod tool;
+mod toolchain;
 
 use std::process::ExitCode;
 
+use driver::Build;
 use shell::{Failure, cargo, run};
 
 const HELP: &str = "\
@@ -18,7 +22,10 @@ Usage: cargo xtask <COMMAND>
 Commands:
   demo    Find or install a Vulkan driver, build, and render a labelled contact sheet of every profile model
   test    Find or install a Vulkan driver, then run every test
-  ci      Formatting, lints, documentation and every test, as continuous integration does
+  ci [--quick] [--keep-going]
+          The gate: formatting, spelling, dependencies, lints, documentation, every test, accuracy, the oldest Rust and
+          packages; ends with what was run, how long it took, and what was not run and why. With --quick, only
+          formatting, lints and unit tests; with --keep-going, the steps after a failed one too
   bless   Accept the texts and pictures that the tests now produce; then look at `git diff tests`
   accuracy [--check]
           Write docs/accuracy.md and its figures by running the commands that stand in xtask/accuracy.md; with
@@ -28,6 +35,7 @@ Examples:
   cargo xtask demo
   cargo xtask demo --size 480x600 --taps 128
   cargo xtask test -p subsurface-runtime
+  cargo xtask ci --quick
   cargo xtask accuracy --check
 ";
 
@@ -38,7 +46,7 @@ fn main() -> ExitCode {
     let result = match command.as_deref() {
         Some("demo") => demo(&rest),
         Some("test") => test(&rest),
-        Some("ci") => ci(),
+        Some("ci") => gate::run_command(&rest),
         Some("bless") => bless(&rest),
         Some("accuracy") => accuracy::run_command(&rest),
         Some("help" | "--help" | "-h") => {
@@ -61,27 +69,18 @@ fn main() -> ExitCode {
 
 /// Renders the contact sheet; further arguments go to `subsurface contact-sheet`.
 fn demo(arguments: &[String]) -> Result<(), Failure> {
-    driver::ensure("release")?;
+    driver::ensure(Build::Demo)?;
     let sheet = shell::root().join("target").join("demo").join("contact-sheet.png");
     std::fs::create_dir_all(sheet.parent().unwrap_or(&sheet))
         .map_err(|error| Failure(format!("cannot make the folder of {}: {error}", sheet.display())))?;
     let mut command = cargo();
-    command.args([
-        "run",
-        "--quiet",
-        "--release",
-        "--package",
-        "subsurface-cli",
-        "--",
-        "contact-sheet",
-        "--out",
-    ]);
+    command.args(["run", "--quiet"]).args(Build::Demo.arguments()).args(["--", "contact-sheet", "--out"]);
     run(command.arg(&sheet).args(arguments))
 }
 
 /// Runs every test; further arguments go to `cargo test`.
 fn test(arguments: &[String]) -> Result<(), Failure> {
-    driver::ensure("dev")?;
+    driver::ensure(Build::Test)?;
     let mut command = cargo();
     command.arg("test");
     if !arguments.iter().any(|argument| argument == "-p" || argument.starts_with("--package")) {
@@ -90,13 +89,9 @@ fn test(arguments: &[String]) -> Result<(), Failure> {
     run(command.args(arguments))
 }
 
-fn ci() -> Result<(), Failure> {
-    run(&mut std::process::Command::new(shell::root().join(".ci").join("run")))
-}
-
 /// Runs the tests that compare with stored results and stores what they produce now.
 fn bless(arguments: &[String]) -> Result<(), Failure> {
-    driver::ensure("dev")?;
+    driver::ensure(Build::Test)?;
     run(cargo()
         .env("INSTA_UPDATE", "always")
         .env("SUBSURFACE_BLESS", "1")
