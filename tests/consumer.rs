@@ -1,4 +1,4 @@
-//! The crate of the README's section "In your own crate", built and run outside the workspace.
+//! The crate of the guide's section "A whole crate", built and run outside the workspace.
 //!
 //! One test, because its steps share a build: what one step leaves is what the next one starts from.
 
@@ -170,9 +170,9 @@ fn the_consumer_stays_below_40_lines() {
 }
 
 #[test]
-fn the_readme_shows_the_whole_crate() {
+fn the_guide_shows_the_whole_crate() {
     let root = Path::new(ROOT);
-    let readme = read(&root.join("README.md"));
+    let guide = read(&root.join("docs/guide.md"));
     for (file, language) in [
         ("build.rs", "rust"),
         ("materials/skin.ron", "ron"),
@@ -180,6 +180,41 @@ fn the_readme_shows_the_whole_crate() {
         ("src/main.rs", "rust"),
     ] {
         let block = format!("```{language}\n{}```\n", read(&root.join("examples/consumer").join(file)));
-        assert!(readme.contains(&block), "README.md does not show examples/consumer/{file} as it is");
+        assert!(guide.contains(&block), "docs/guide.md does not show examples/consumer/{file} as it is");
     }
+    let manifest = read(&root.join("examples/consumer/Cargo.toml"));
+    for line in code(&guide, "toml") {
+        assert!(manifest.lines().any(|own| own == line), "the consumer's manifest has no line `{line}`");
+    }
+}
+
+/// The README shows parts of the program, less indented, in the order in which they stand in it.
+#[test]
+fn the_readme_quotes_the_crate() {
+    let root = Path::new(ROOT);
+    let crate_root = root.join("examples/consumer");
+    let readme = read(&root.join("README.md"));
+    let program = [read(&crate_root.join("build.rs")), read(&crate_root.join("src/main.rs"))].concat();
+    let mut rest = program.lines().map(str::trim);
+    let quoted = code(&readme, "rust");
+    assert!(quoted.len() > 10, "README.md shows the pass");
+    for line in quoted.iter().map(|line| line.trim()) {
+        assert!(rest.any(|own| own == line), "examples/consumer has no line `{line}`, or not in this order");
+    }
+    let material = format!("```ron\n{}```\n", read(&crate_root.join("materials/skin.ron")));
+    assert!(readme.contains(&material), "README.md does not show examples/consumer/materials/skin.ron as it is");
+}
+
+/// The lines of the blocks of code in `language`, without empty ones.
+fn code<'a>(text: &'a str, language: &str) -> Vec<&'a str> {
+    let mut lines = Vec::new();
+    let mut is_inside = false;
+    for line in text.lines() {
+        match line.strip_prefix("```") {
+            Some(name) => is_inside = !is_inside && name == language,
+            None if is_inside && !line.is_empty() => lines.push(line),
+            None => {}
+        }
+    }
+    lines
 }
