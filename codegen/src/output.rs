@@ -64,7 +64,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let (ours, usual) = (folder.path().join("ours"), folder.path().join("usual"));
         write_if_changed(&ours, b"x").unwrap();
-        // What the system gives a new file under the umask of whoever runs this.
+        // What the system gives a new file under the umask of the user.
         fs::write(&usual, "x").unwrap();
         let mode = |path| fs::metadata(path).unwrap().permissions().mode();
         assert_eq!(mode(&ours), mode(&usual));

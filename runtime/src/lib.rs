@@ -1,16 +1,15 @@
 //! Thin wgpu passes for subsurface scattering: shadow → G-buffer → subsurface → composite.
 //!
 //! The central type is [`SubsurfacePass`]: give it three textures of your frame (irradiance, surface albedo with
-//! material number, depth) and a [`SubsurfaceView`], and it gives one texture back. [`KernelParts`] say which
-//! materials it knows; `subsurface-codegen` generates one from RON. [`Renderer`] orders all four passes for those who
-//! want a whole picture.
+//! material number, depth) and a [`SubsurfaceView`], and it gives one texture back. [`KernelParts`] say which materials it
+//! knows; `subsurface-codegen` generates them from RON. [`Renderer`] orders all four passes, for a whole picture.
 //!
 //! Rules of every pass:
 //!
 //! - `new` makes all that does not depend on the frame's size, `resize` the targets and bindings, `prepare` uploads one
 //!   frame's parameters, `encode` records. Nothing is submitted, and `prepare` and `encode` allocate nothing.
 //! - The caller owns the device, the queue and the submission.
-//! - World scale is not guessed: whoever names a distance says how many millimetres a world unit has.
+//! - World scale is not guessed: the caller says how many millimetres a world unit has.
 //!
 //! What this crate does not know: RON, files, windows; and how a kernel came to be.
 

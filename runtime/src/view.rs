@@ -69,8 +69,8 @@ impl SubsurfaceView {
         self
     }
 
-    /// Moves the pattern of taps on, for those who accumulate frames. Without it, and for every number again, the picture
-    /// is the same and still.
+    /// Moves the pattern of taps, for programs that accumulate frames. Each number has its own pattern, and gives the same
+    /// picture every time.
     #[must_use]
     pub fn with_frame_index(mut self, frame_index: u32) -> Self {
         self.frame_index = frame_index;

@@ -16,7 +16,7 @@ pub fn folder_of(path: &Path) -> Result<PathBuf, PictureError> {
     Err(PictureError::NoFolder { file: path.to_owned(), folder: folder.to_owned() })
 }
 
-/// Writes to a temporary file beside `path`, then renames it: whoever looks sees the old file or the new one.
+/// Writes to a temporary file beside `path`, then renames it: readers see the old file or the new one.
 pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), PictureError> {
     let folder = folder_of(path)?;
     let unwritable = |reason| PictureError::Unwritable { file: path.to_owned(), reason };
@@ -55,7 +55,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let (ours, usual) = (folder.path().join("ours"), folder.path().join("usual"));
         write_atomically(&ours, b"x").unwrap();
-        // What the system gives a new file under the umask of whoever runs this.
+        // What the system gives a new file under the umask of the user.
         fs::write(&usual, b"x").unwrap();
         let mode = |path| fs::metadata(path).unwrap().permissions().mode();
         assert_eq!(mode(&ours), mode(&usual));

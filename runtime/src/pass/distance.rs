@@ -1,4 +1,4 @@
-//! Beside the four passes: distances in millimetres, for whoever wants to read the frame's depth.
+//! Beside the four passes: distances in millimetres, for programs that read the frame's depth.
 
 use crate::bindings::distance::{
     BindGroup0, DistanceView, ENTRY_DISTANCE_FRAGMENT, ENTRY_DISTANCE_VERTEX, WGSL,

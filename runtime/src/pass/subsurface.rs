@@ -66,7 +66,7 @@ pub struct SubsurfacePass {
     table: MaterialTable,
     uniform: wgpu::Buffer,
     layout: wgpu::BindGroupLayout,
-    /// A scale of the mean free path of 1 for those who give none.
+    /// A scale of the mean free path of 1, bound if the inputs have none.
     unit_scale: Target,
     unit_scale_is_filled: bool,
     taps: u32,
