@@ -97,7 +97,11 @@ fn the_arrows_are_those_of_the_manifests() {
         let line = &lines[name];
         assert_eq!(line.ours, ours, "{name}: what the page says, and what Cargo.toml says");
         let others: BTreeSet<&String> = arrows.normal.iter().filter(|name| marked.contains(name)).collect();
-        assert_eq!(line.others.iter().collect::<BTreeSet<_>>(), others, "{name}: libraries that the page marks");
+        assert_eq!(
+            line.others.iter().collect::<BTreeSet<_>>(),
+            others,
+            "{name}: libraries that the page marks"
+        );
     }
 }
 
@@ -145,8 +149,10 @@ fn quoted(page: &str) -> Vec<&str> {
 
 /// True for what can only be a path: folders, or the name of a file of this repository.
 fn is_path(word: &str) -> bool {
-    let has_other_signs = word.contains(|sign: char| " <>()@:…\"".contains(sign)) || word.starts_with("target/");
-    let is_file = [".rs", ".wgsl", ".ron", ".md", ".toml", ".csv", ".yml"].iter().any(|end| word.ends_with(end));
+    let has_other_signs =
+        word.contains(|sign: char| " <>()@:…\"".contains(sign)) || word.starts_with("target/");
+    let is_file =
+        [".rs", ".wgsl", ".ron", ".md", ".toml", ".csv", ".yml"].iter().any(|end| word.ends_with(end));
     !has_other_signs && (word.contains('/') || is_file)
 }
 
@@ -226,7 +232,9 @@ fn the_checks_tell_paths_from_other_words() {
     assert!(is_path("profile/src/burley.rs") && is_path("emit.rs") && is_path("shaders/{lib,gather}/"));
     assert!(!is_path("cargo xtask ci") && !is_path("a::b") && !is_path("min_binding_size"));
     assert_eq!(expanded("shaders/{lib, gather}/x"), ["shaders/lib/x", "shaders/gather/x"]);
-    assert!(matches("materials/*.ron", "materials/skin.ron") && !matches("materials/*.ron", "materials/a/b.ron"));
+    assert!(
+        matches("materials/*.ron", "materials/skin.ron") && !matches("materials/*.ron", "materials/a/b.ron")
+    );
     assert!(matches("shaders/*/*.wgsl", "shaders/lib/tone.wgsl"));
     assert_eq!(anchor(" The set: `set.ron`"), "the-set-setron");
 }

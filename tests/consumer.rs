@@ -202,7 +202,10 @@ fn the_readme_quotes_the_crate() {
         assert!(rest.any(|own| own == line), "examples/consumer has no line `{line}`, or not in this order");
     }
     let material = format!("```ron\n{}```\n", read(&crate_root.join("materials/skin.ron")));
-    assert!(readme.contains(&material), "README.md does not show examples/consumer/materials/skin.ron as it is");
+    assert!(
+        readme.contains(&material),
+        "README.md does not show examples/consumer/materials/skin.ron as it is"
+    );
 }
 
 /// The lines of the blocks of code in `language`, without empty ones.

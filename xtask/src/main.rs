@@ -9,7 +9,7 @@ mod shell;
 mod tool;
 mod toolchain;
 
-use std::process::ExitCode;
+use std::process::{Command, ExitCode};
 
 use driver::Build;
 use shell::{Failure, cargo, run};
@@ -26,7 +26,7 @@ Commands:
           The gate: formatting, spelling, dependencies, lints, documentation, every test, accuracy, the oldest Rust and
           packages; ends with what was run, how long it took, and what was not run and why. With --quick, only
           formatting, lints and unit tests; with --keep-going, the steps after a failed one too
-  bless   Accept the texts and pictures that the tests now produce; then look at `git diff tests`
+  bless   Accept the texts and pictures that the tests now produce; then look at `git diff`
   accuracy [--check]
           Write docs/accuracy.md and its figures by running the commands that stand in xtask/accuracy.md; with
           --check, write nothing and fail where the files in docs differ from what the commands give
@@ -81,20 +81,22 @@ fn demo(arguments: &[String]) -> Result<(), Failure> {
 /// Runs every test; further arguments go to `cargo test`.
 fn test(arguments: &[String]) -> Result<(), Failure> {
     driver::ensure(Build::Test)?;
-    let mut command = cargo();
-    command.arg("test");
-    if !arguments.iter().any(|argument| argument == "-p" || argument.starts_with("--package")) {
-        command.arg("--workspace");
-    }
-    run(command.args(arguments))
+    run(&mut cargo_test(arguments))
 }
 
 /// Runs the tests that compare with stored results and stores what they produce now.
 fn bless(arguments: &[String]) -> Result<(), Failure> {
     driver::ensure(Build::Test)?;
-    run(cargo()
-        .env("INSTA_UPDATE", "always")
-        .env("SUBSURFACE_BLESS", "1")
-        .args(["test", "--workspace"])
-        .args(arguments))
+    run(cargo_test(arguments).env("INSTA_UPDATE", "always").env("SUBSURFACE_BLESS", "1"))
+}
+
+/// `cargo test` of the packages that the arguments name, or of all.
+fn cargo_test(arguments: &[String]) -> Command {
+    let mut command = cargo();
+    command.arg("test");
+    if !arguments.iter().any(|argument| argument.starts_with("-p") || argument.starts_with("--package")) {
+        command.arg("--workspace");
+    }
+    command.args(arguments);
+    command
 }

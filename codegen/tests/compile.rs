@@ -37,35 +37,6 @@ fn every_accepted_set_compiles() {
 }
 
 #[test]
-fn the_presets_compile_to_the_same_bytes_every_time() {
-    let compile = |directory: &str| {
-        let result = Compiler::new(directory).compile();
-        let compilation = result.unwrap_or_else(|report| panic!("{report}"));
-        (compilation.parts, compilation.rust, compilation.manifest)
-    };
-    let absolute = std::fs::canonicalize("materials").expect("the folder is there");
-    let first = compile("materials");
-    assert!(first == compile("materials"), "two runs differ");
-    assert!(first == compile(&absolute.to_string_lossy()), "the place of the checkout shows");
-}
-
-#[test]
-fn the_generated_table_is_the_one_that_is_uploaded() {
-    use subsurface::presets::{MATERIALS, Material, WGSL};
-    let compilation = Compiler::new("materials").compile().unwrap_or_else(|report| panic!("{report}"));
-    assert_eq!(
-        subsurface::runtime::bytemuck::cast_slice::<_, u8>(&MATERIALS),
-        compilation.parts.material_rows()
-    );
-    assert_eq!(Material::NAMES.as_slice(), compilation.material_names());
-    assert_eq!(WGSL, compilation.wgsl());
-    for (number, material) in Material::ALL.into_iter().enumerate() {
-        assert_eq!(material.number() as usize, number);
-        assert_eq!(Material::from_name(material.name()), Some(material));
-    }
-}
-
-#[test]
 fn the_caller_overrides_the_file_of_the_set() {
     let directory = "tests/in/pass/described_set";
     let compile = |compiler: Compiler| compiler.compile().unwrap_or_else(|report| panic!("{report}"));
@@ -100,26 +71,6 @@ fn the_caller_overrides_the_file_of_the_set() {
     assert!(other.wgsl().contains("texture_storage_2d<rgba32float, write>"));
     assert!(other.rust.contains("KernelKind::Interleaved"));
     assert_ne!(other.provenance, own.provenance);
-}
-
-#[test]
-fn the_ready_made_materials_reach_every_tier() {
-    let ron = |entry: std::io::Result<std::fs::DirEntry>| entry.expect("the folder can be read").path();
-    let mut files: Vec<(String, String)> = std::fs::read_dir("materials")
-        .expect("the folder is there")
-        .map(ron)
-        .filter(|path| path.extension().is_some_and(|extension| extension == "ron"))
-        .map(|path| {
-            let name = path.file_name().expect("it has a name").to_string_lossy().into_owned();
-            (name, std::fs::read_to_string(path).expect("it is text"))
-        })
-        .filter(|(name, _)| name != "set.ron")
-        .collect();
-    files.push(("set.ron".to_owned(), "MaterialSet(quality: Ultra)".to_owned()));
-    let compilation = Compiler::from_memory(files).compile().unwrap_or_else(|report| panic!("{report}"));
-    for tier in compilation.quality.expect("the set asks for a tier").tiers {
-        assert!(tier.error <= tier.tier.target(), "{tier:?}");
-    }
 }
 
 #[test]
@@ -201,12 +152,11 @@ fn a_kernel_with_taps_that_it_cannot_have_is_refused() {
 #[test]
 fn the_curves_are_written_beside_the_rest() {
     let directory = tempfile::tempdir().expect("there is room");
-    let compilation = Compiler::new("materials").compile().unwrap_or_else(|report| panic!("{report}"));
+    let compilation = Compiler::new("tests/in/pass/every_form").compile();
+    let compilation = compilation.unwrap_or_else(|report| panic!("{report}"));
     compilation.write_to(directory.path()).expect("the folder can be written to");
     let curves = std::fs::read(directory.path().join("subsurface.curves")).expect("the file is there");
     assert_eq!(curves, compilation.parts.profile_curves());
     let [width, height] = compilation.parts.curve_size().map(|extent| extent as usize);
     assert_eq!(curves.len(), 16 * width * height);
-    use subsurface::presets::{CURVE_SIZE, PROFILE_CURVES};
-    assert_eq!((CURVE_SIZE, PROFILE_CURVES), (compilation.parts.curve_size(), curves.as_slice()));
 }

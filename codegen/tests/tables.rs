@@ -262,7 +262,7 @@ fn a_set_of_tables_compiles_to_the_blessed_texts() {
 
 #[test]
 fn a_kernel_has_the_profile_tables_that_its_module_reads_or_is_none() {
-    use subsurface::runtime::{KernelParts, PartsError};
+    use subsurface_kernel::{KernelParts, PartsError};
     let parts = |compilation: &Compilation, profile_tables: &[u8]| {
         let parts = &compilation.parts;
         KernelParts::builder(parts.module().clone())

@@ -1,8 +1,8 @@
-//! Material directories in, blessed diagnostics out: `tests/in/{fail,warn,pass,out_of_reach}/CASE` and `tests/out/errors/CASE.snap`.
+//! Material directories in, blessed diagnostics out: `tests/in/{fail,warn,pass,out_of_reach}/CASE` and
+//! `tests/out/errors/CASE.snap`.
 //!
-//! A case is a small materials directory. What cannot or should not lie in a repository (10 MB, bytes that are no text)
-//! is written by the test. After a change: `cargo insta review`, or `INSTA_UPDATE=always cargo test --test diagnostics`,
-//! and read the difference.
+//! A case is a small materials directory. The test itself writes cases that should not lie in a repository (10 MB, bytes
+//! that are no text). After a change: `cargo xtask bless -p subsurface-codegen`, and read the difference.
 #![allow(clippy::unwrap_used, reason = "a test may fail by panicking")]
 
 use std::fs;
