@@ -41,7 +41,7 @@ fn the_caller_overrides_the_file_of_the_set() {
     let directory = "tests/in/pass/described_set";
     let compile = |compiler: Compiler| compiler.compile().unwrap_or_else(|report| panic!("{report}"));
     let own = compile(Compiler::new(directory));
-    assert_eq!(own.kernel, Estimator::ImportanceSampled { taps: 33 });
+    assert_eq!(own.estimator(), Estimator::ImportanceSampled { taps: 33 });
     let rejection = Rejection {
         by_material: true,
         by_distance: false,
@@ -64,9 +64,9 @@ fn the_caller_overrides_the_file_of_the_set() {
     let default = Rejection::default();
     let other = Compiler::new(directory).estimator(Estimator::default()).rejection(default);
     let other = compile(other.output_format(OutputFormat::Rgba32Float));
-    assert_eq!((other.kernel, other.rejection), (Estimator::default(), default));
+    assert_eq!((other.estimator(), other.rejection), (Estimator::default(), default));
     // What the set's own file says stays on record.
-    assert_eq!(other.set.kernel, own.kernel);
+    assert_eq!(other.set.estimator, own.estimator());
     assert!(other.wgsl().contains("// Estimator: Interleaved, 4 taps\n"));
     assert!(other.wgsl().contains("texture_storage_2d<rgba32float, write>"));
     assert!(other.rust.contains("KernelKind::Interleaved"));
