@@ -41,9 +41,8 @@ fn is_of(estimator: Estimator, file: &Module) -> bool {
     let is_others = others
         .into_iter()
         .any(|stem| file.name == format!("passes/{stem}") || file.name == format!("passes/{stem}_compute"));
-    !is_others
-        && !OWN_MODULES.contains(&file.name)
-        && !(estimator.has_two_stages() && single.contains(&file.name))
+    let is_of_one_stage = estimator.has_two_stages() && single.contains(&file.name);
+    !(is_others || is_of_one_stage || OWN_MODULES.contains(&file.name))
 }
 
 /// Checks every file, not only what passes reach.
