@@ -5,7 +5,7 @@ use crate::uniform_subject::{profiles, widest_radius_mm};
 use subsurface_cli::failure::Failure;
 use subsurface_cli::kernel_bench::{Contender, Entry, Goal, Stage};
 use subsurface_profile::fit::{Family, Options, fit};
-use subsurface_profile::{Model, RadialData, RadialProfile, RadialRow};
+use subsurface_profile::{Model, ModelKind, RadialData, RadialProfile, RadialRow};
 
 /// Jimenez et al. 2015 with a sum of Gaussians, fitted to the subject's profile.
 #[derive(Clone, Copy, Debug)]
@@ -74,7 +74,8 @@ fn sum_of_gaussians(profile: &dyn RadialProfile) -> Result<Sum, String> {
     };
     let data = RadialData::new(albedo, (0..BINS).map(bin).collect()).map_err(|error| error.to_string())?;
     let data = [data];
-    let start = Family::GaussianSum { terms: GAUSSIANS }.start(&data);
+    let family = Family::of(ModelKind::GaussianSum).and_then(|family| family.with_terms(GAUSSIANS));
+    let start = family.ok_or("sums of Gaussians cannot be fitted")?.start(&data);
     let fitted = fit(&start, &data, &Options::default()).map_err(|error| error.to_string())?;
     let Model::GaussianSum(sum) = fitted.model else { return Err("the fit is no sum of Gaussians".into()) };
     let weight: f64 = sum.terms.iter().map(|term| term.weight[0]).sum();

@@ -4,7 +4,7 @@
 //! tabulated here, per unit of its length, over the surface albedo and the share.
 
 use subsurface_kernel::constants::{CURVE_ROWS, CURVE_STEPS, EDGE_POWER};
-use subsurface_profile::{Channel, EdgeSpread, GaussianSumModel, Medium, Model, RadialProfile};
+use subsurface_profile::{Channel, EdgeSpread, Medium, Model, RadialProfile};
 
 use crate::material::{Material, MaterialSet};
 use crate::source::Span;
@@ -172,7 +172,7 @@ impl Nodes {
                 .and_then(|medium| model.profile(medium, channel).map_err(|error| error.to_string()))
                 .map_err(|reason| NoProfile { span: material.profile.span.clone(), surface_albedo, reason })
         };
-        Ok(if depends_on_channel(model) {
+        Ok(if model.dependence().on_channel() {
             let nodes = Channel::ALL.into_iter().map(|channel| profile(0.5, channel));
             Self { nodes: nodes.collect::<Result<_, _>>()?, continuous: false }
         } else {
@@ -186,12 +186,6 @@ impl Nodes {
         let step = usize::from(self.continuous);
         (0..knots.len()).map(move |node| row(&knots[node], &knots[(node + step).min(knots.len() - 1)]))
     }
-}
-
-/// Whether the channels of a model differ by more than their surface albedo and length: [`GaussianSumModel`] has a
-/// weight per channel.
-pub(crate) fn depends_on_channel(model: &Model) -> bool {
-    matches!(model, Model::GaussianSum(GaussianSumModel { .. }))
 }
 
 /// Surface albedo of a node.

@@ -32,8 +32,9 @@ mod lint;
 pub mod load;
 mod manifest;
 pub mod material;
-mod model_kind;
+mod model_row;
 mod output;
+mod profile_text;
 mod quality;
 mod reflect;
 mod resolve;
@@ -55,6 +56,7 @@ pub use load::{
 };
 pub use material::{Material, MaterialSet, ResolvedProfile};
 pub use output::BuildError;
+pub use profile_text::profile_file_text;
 pub use quality::{PictureReport, Quality, QualityReport, QualityRequest, Tier, TierReport};
 pub use source::{FileId, SourceMap, Span, Spanned};
 pub use subsurface_kernel::{Estimator, KernelParts, OutputFormat, Rejected, Rejection};

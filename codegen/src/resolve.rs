@@ -5,7 +5,7 @@ mod cycle;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use subsurface_profile::{Channel, Length, Medium, Model};
+use subsurface_profile::{Channel, Length, Medium};
 
 use crate::diagnostics::Diagnostic;
 use crate::identifier::{self, camel_case, screaming_case};
@@ -399,7 +399,7 @@ impl Resolution {
         surface_albedo: &Triple,
         profile_name: Option<&Span>,
     ) -> bool {
-        let scales = !matches!(profile.model, Model::GaussianSum(_));
+        let scales = profile.model.dependence().on_length();
         if !scales || length.kind == profile.model.length() || length.kind == Length::MeanFreePath {
             return true; // a mean free path given as the diffuse one is a lint: the field's name is the usual one
         }

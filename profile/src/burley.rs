@@ -2,10 +2,11 @@
 //!
 //! Source: Christensen and Burley 2015, \[CB15\].
 
-use crate::model_error::require_finite;
+use crate::description::{Coefficient, Description, Function, Notation, ProfileModel, Published, Variable};
 use crate::radial_profile::{legal_radius, legal_u};
-use crate::{Length, Medium, ModelError, RadialProfile};
+use crate::{Channel, Length, Medium, ModelError, RadialProfile, Requirement};
 use std::f64::consts::PI;
+use std::slice::from_mut;
 
 /// How the shape s of Burley's profile depends on the surface albedo A:
 /// s(A) = constant + slope·A + amplitude·|A - pivot|^exponent.
@@ -72,7 +73,7 @@ impl BurleyModel {
         let surface_albedo = medium.surface_albedo();
         let s = self.shape.at(surface_albedo);
         if !(s > 0.0 && s.is_finite()) {
-            return Err(ModelError::ShapeNotPositive { surface_albedo, s });
+            return Err(SHAPE_POSITIVE.broken_at(surface_albedo, s));
         }
         let scattering_distance_mm = medium.length_mm() / s;
         if !(scattering_distance_mm > 0.0 && scattering_distance_mm.is_finite()) {
@@ -80,19 +81,95 @@ impl BurleyModel {
         }
         Ok(BurleyProfile { surface_albedo, scattering_distance_mm })
     }
+}
 
-    pub(crate) fn collect_errors(&self, errors: &mut Vec<ModelError>) {
-        let BurleyShape { constant, slope, amplitude, pivot, exponent } = self.shape;
-        require_finite(
-            [
-                ("shape.constant", constant),
-                ("shape.slope", slope),
-                ("shape.amplitude", amplitude),
-                ("shape.pivot", pivot),
-                ("shape.exponent", exponent),
-            ],
-            errors,
-        );
+/// s(A) divides the length.
+static SHAPE_POSITIVE: Requirement = Requirement {
+    coefficient: "shape",
+    wrong: "Burley's s is {}",
+    expected: "s(A) must be above 0",
+    remedy: "s(A) = constant + slope A + amplitude |A - pivot|^exponent: make `constant` larger",
+};
+
+impl ProfileModel for BurleyModel {
+    const DESCRIPTION: Description = Description {
+        name: "Burley",
+        stem: "burley",
+        caption: "Burley",
+        equation: "R(r) = A (e^(−r/d) + e^(−r/3d))/(8π d r), d = length/s(A), \
+                   s(A) = constant + slope A + amplitude |A − pivot|^exponent, above 0",
+        notes: "",
+        source: "Christensen and Burley 2015, eq. (3)",
+        notation: Notation::Fields { key: "parametrization", own: "Fit" },
+        example: "Burley(parametrization: Searchlight)",
+        lengths: &[Length::MeanFreePath, Length::DiffuseMeanFreePath],
+        variable: Variable::SURFACE_ALBEDO,
+    };
+
+    const COEFFICIENTS: &'static [Coefficient<Self>] = &[
+        Coefficient::<Self>::new("shape.constant", "", "the term that does not depend on A", |m| {
+            from_mut(&mut m.shape.constant)
+        })
+        .member("constant"),
+        Coefficient::<Self>::new("shape.slope", "", "factor of A", |m| from_mut(&mut m.shape.slope))
+            .member("slope")
+            .order(1),
+        Coefficient::<Self>::new("shape.amplitude", "", "factor of the power", |m| {
+            from_mut(&mut m.shape.amplitude)
+        })
+        .member("amplitude")
+        .order(2),
+        Coefficient::<Self>::new("shape.pivot", "", "the A about which the power is symmetric", |m| {
+            from_mut(&mut m.shape.pivot)
+        })
+        .member("pivot")
+        .order(3),
+        Coefficient::<Self>::new("shape.exponent", "", "exponent of the power", |m| {
+            from_mut(&mut m.shape.exponent)
+        })
+        .member("exponent")
+        .order(4),
+    ];
+
+    const PUBLISHED: &'static [Published<Self>] = &[
+        Published::new(
+            "burley_searchlight",
+            "Searchlight",
+            "Christensen and Burley 2015, eq. (5), perpendicular entry",
+            || Self::SEARCHLIGHT,
+        ),
+        Published::new(
+            "burley_diffuse",
+            "Diffuse",
+            "Christensen and Burley 2015, eq. (6), diffuse entry",
+            || Self::DIFFUSE,
+        ),
+        Published::new(
+            "burley_dmfp",
+            "DiffuseMeanFreePath",
+            "Christensen and Burley 2015, eq. (8), perpendicular entry",
+            || Self::DIFFUSE_MEAN_FREE_PATH,
+        ),
+    ];
+
+    const FUNCTIONS: &'static [Function<Self>] =
+        &[Function::<Self>::new("s", "s", |m, surface_albedo| m.shape.at(surface_albedo)).length_power(1)];
+
+    fn boxed_profile(&self, medium: Medium, _channel: Channel) -> Result<Box<dyn RadialProfile>, ModelError> {
+        Ok(Box::new(self.profile(medium)?))
+    }
+
+    fn length(&self) -> Length {
+        self.length
+    }
+
+    fn set_length(&mut self, length: Length) {
+        self.length = length;
+    }
+
+    fn make_constant(&mut self, surface_albedo: f64) {
+        let constant = self.shape.at(surface_albedo);
+        self.shape = BurleyShape { constant, slope: 0.0, amplitude: 0.0, ..self.shape };
     }
 }
 
@@ -220,7 +297,11 @@ mod tests {
             let model = BurleyModel { length: Length::MeanFreePath, shape };
             let error = model.profile(Medium::new(0.5, 1.0).unwrap());
             assert!(
-                matches!(error, Err(ModelError::ShapeNotPositive { surface_albedo: 0.5, .. })),
+                matches!(
+                    error,
+                    Err(ModelError::Broken { requirement, surface_albedo: Some(0.5), .. })
+                        if *requirement == SHAPE_POSITIVE
+                ),
                 "{error:?}"
             );
         }

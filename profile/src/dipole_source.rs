@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use crate::ModelError;
+use crate::{ModelError, Requirement};
 
 /// A point source below the surface of an absorbing, scattering half-space, at mean free path 1.
 ///
@@ -17,6 +17,22 @@ pub(crate) struct DipoleSource {
     pub(crate) attenuation: f64,
 }
 
+/// A source lies below the surface.
+static DEPTH_POSITIVE: Requirement = Requirement {
+    coefficient: "dipole_depth",
+    wrong: "the dipole's depth is {}",
+    expected: "z(A) must be above 0",
+    remedy: "the polynomial `dipole_depth` must stay above 0 for all A in [0, 1]",
+};
+
+/// A source's field does not grow.
+static ATTENUATION_NOT_NEGATIVE: Requirement = Requirement {
+    coefficient: "dipole_attenuation",
+    wrong: "the dipole's attenuation is {}",
+    expected: "s(A) must be 0 or more",
+    remedy: "the polynomial `dipole_attenuation` must not be negative for any A in [0, 1]",
+};
+
 impl DipoleSource {
     /// Halley's method takes at most five steps to all digits, over all depths, attenuations and fractions.
     const MAXIMUM_STEPS: usize = 8;
@@ -24,10 +40,10 @@ impl DipoleSource {
     /// The source that a model has at a surface albedo, which the errors name.
     pub(crate) fn new(surface_albedo: f64, depth: f64, attenuation: f64) -> Result<DipoleSource, ModelError> {
         if !(depth > 0.0 && depth.is_finite()) {
-            return Err(ModelError::DipoleDepthNotPositive { surface_albedo, depth });
+            return Err(DEPTH_POSITIVE.broken_at(surface_albedo, depth));
         }
         if !(attenuation >= 0.0 && attenuation.is_finite()) {
-            return Err(ModelError::NegativeDipoleAttenuation { surface_albedo, attenuation });
+            return Err(ATTENUATION_NOT_NEGATIVE.broken_at(surface_albedo, attenuation));
         }
         Ok(DipoleSource { depth, attenuation })
     }

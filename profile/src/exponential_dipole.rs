@@ -1,12 +1,11 @@
 //! An exponential near the point of entry and a dipole's far field.
 
-use std::f64::consts::PI;
-
+use crate::description::{
+    Coefficient, Description, Function, Notation, ProfileModel, Published, Values, Variable,
+};
 use crate::dipole_source::DipoleSource;
-use crate::inverse::increasing_root;
-use crate::model_error::{require_exponential, require_finite};
-use crate::radial_profile::{legal_radius, legal_u};
-use crate::{Length, Medium, ModelError, RadialProfile};
+use crate::exponential_source_sum::{Exponential, ExponentialSourceSum};
+use crate::{Channel, Length, Medium, ModelError, RadialProfile};
 
 /// An exponential plus a dipole. At mean free path 1, with ρ = √(r² + z²),
 ///
@@ -53,155 +52,100 @@ impl ExponentialDipoleModel {
     /// The profile of a medium whose length is the mean free path.
     pub fn profile(&self, medium: Medium) -> Result<ExponentialDipoleProfile, ModelError> {
         let surface_albedo = medium.surface_albedo();
-        let quadratic = |[c0, c1, c2]: [f64; 3]| c0 + (c1 + c2 * surface_albedo) * surface_albedo;
-        let weight = quadratic(self.exponential_weight);
-        let length = quadratic(self.exponential_length);
-        let depth = quadratic(self.dipole_depth);
+        let weight = quadratic(self.exponential_weight, surface_albedo);
+        let length = quadratic(self.exponential_length, surface_albedo);
+        let depth = quadratic(self.dipole_depth, surface_albedo);
         // The sum turns a -0.0 from A = 1 into 0.0.
-        let attenuation = (1.0 - surface_albedo) * quadratic(self.dipole_attenuation) + 0.0;
-        require_exponential(surface_albedo, weight, length)?;
+        let attenuation = (1.0 - surface_albedo) * quadratic(self.dipole_attenuation, surface_albedo) + 0.0;
+        let exponential = Exponential::new(surface_albedo, weight, length)?;
         let dipole = DipoleSource::new(surface_albedo, depth, attenuation)?;
-        Ok(ExponentialDipoleProfile {
+        Ok(ExponentialSourceSum::new(
             surface_albedo,
-            mean_free_path_mm: medium.length_mm(),
-            weight,
-            length,
-            dipole,
-        })
+            medium.length_mm(),
+            [exponential],
+            [(1.0 - weight, dipole)],
+        ))
     }
+}
 
-    pub(crate) fn collect_errors(&self, errors: &mut Vec<ModelError>) {
-        for (field, coefficients) in [
-            ("exponential_weight", self.exponential_weight),
-            ("exponential_length", self.exponential_length),
-            ("dipole_depth", self.dipole_depth),
-            ("dipole_attenuation", self.dipole_attenuation),
-        ] {
-            for (power, value) in coefficients.into_iter().enumerate() {
-                require_finite([(format!("{field}[{power}]").as_str(), value)], errors);
-            }
-        }
+fn quadratic([c0, c1, c2]: [f64; 3], surface_albedo: f64) -> f64 {
+    c0 + (c1 + c2 * surface_albedo) * surface_albedo
+}
+
+/// What tables say of both settings.
+const FITTED: [&str; 2] =
+    ["fitted for this project to random walks, perpendicular entry", "the same, diffuse entry"];
+
+impl ProfileModel for ExponentialDipoleModel {
+    const DESCRIPTION: Description = Description {
+        name: "ExponentialDipole",
+        stem: "exponential_dipole",
+        caption: "exponential + dipole",
+        equation: "cdf(r) = 1 − w e^(−r/d) − (1 − w)(z/ρ) e^(−s(ρ − z)), ρ = √(r² + z²), lengths in mean free paths",
+        notes: "w is a share from 0 to 1; d and z are above 0; s/(1 − A) is 0 or more.",
+        source: "fitted for this project",
+        notation: Notation::Fields { key: "entry", own: "" },
+        example: "ExponentialDipole(entry: Searchlight)",
+        lengths: &[Self::LENGTH],
+        variable: Variable::SURFACE_ALBEDO,
+    };
+
+    const COEFFICIENTS: &'static [Coefficient<Self>] = &[
+        Coefficient::<Self>::new("exponential_weight", "w", "share of the exponential", |m| {
+            &mut m.exponential_weight
+        })
+        .values(Values::Powers(3)),
+        Coefficient::<Self>::new("exponential_length", "d", "length of the exponential", |m| {
+            &mut m.exponential_length
+        })
+        .values(Values::Powers(3)),
+        Coefficient::<Self>::new("dipole_depth", "z", "depth of the source", |m| &mut m.dipole_depth)
+            .values(Values::Powers(3)),
+        Coefficient::<Self>::new("dipole_attenuation", "s/(1 − A)", "decay of the source's field", |m| {
+            &mut m.dipole_attenuation
+        })
+        .values(Values::Powers(3)),
+    ];
+
+    const PUBLISHED: &'static [Published<Self>] = &[
+        Published::new("exponential_dipole_searchlight", "Searchlight", FITTED[0], || Self::SEARCHLIGHT),
+        Published::new("exponential_dipole_diffuse", "Diffuse", FITTED[1], || Self::DIFFUSE),
+    ];
+
+    const FUNCTIONS: &'static [Function<Self>] = &[
+        Function::<Self>::new("w", "w", |m, a| quadratic(m.exponential_weight, a)),
+        Function::<Self>::new("d", "d (mean free paths)", |m, a| quadratic(m.exponential_length, a))
+            .length_power(-1),
+        Function::<Self>::new("z", "z (mean free paths)", |m, a| quadratic(m.dipole_depth, a))
+            .length_power(-1),
+        Function::<Self>::new("s/(1 − A)", "s/(1 − A) (1/mean free path)", |m, a| {
+            quadratic(m.dipole_attenuation, a)
+        })
+        .length_power(1),
+    ];
+
+    fn boxed_profile(&self, medium: Medium, _channel: Channel) -> Result<Box<dyn RadialProfile>, ModelError> {
+        Ok(Box::new(self.profile(medium)?))
     }
 }
 
 /// The member of [`ExponentialDipoleModel`] that belongs to one medium.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ExponentialDipoleProfile {
-    surface_albedo: f64,
-    mean_free_path_mm: f64,
-    /// w in [0, 1].
-    weight: f64,
-    /// d > 0 at mean free path 1.
-    length: f64,
-    dipole: DipoleSource,
-}
+pub type ExponentialDipoleProfile = ExponentialSourceSum<1, 1>;
 
 impl ExponentialDipoleProfile {
     /// w, the exponential's share of the energy.
     pub fn exponential_weight(&self) -> f64 {
-        self.weight
+        self.exponentials[0].weight
     }
 
     /// d, the exponential's decay length, mm.
     pub fn exponential_length_mm(&self) -> f64 {
-        self.length * self.mean_free_path_mm
+        self.exponential_lengths_mm()[0]
     }
 
     /// z, the depth of the dipole's source, mm.
     pub fn dipole_depth_mm(&self) -> f64 {
-        self.dipole.depth * self.mean_free_path_mm
-    }
-
-    /// s, the dipole's decay, mm⁻¹. 0 at A = 1.
-    pub fn dipole_attenuation_per_mm(&self) -> f64 {
-        self.dipole.attenuation / self.mean_free_path_mm
-    }
-
-    fn unit_radius(&self, radius_mm: f64) -> f64 {
-        legal_radius(legal_radius(radius_mm) / self.mean_free_path_mm)
-    }
-
-    fn unit_cdf(&self, r: f64) -> f64 {
-        let exponential = -(-r / self.length).exp_m1();
-        let dipole = self.dipole.cdf(r);
-        (self.weight * exponential + (1.0 - self.weight) * dipole).clamp(0.0, 1.0)
-    }
-
-    fn unit_tail(&self, r: f64) -> f64 {
-        let exponential = (-r / self.length).exp();
-        let dipole = self.dipole.tail(r);
-        (self.weight * exponential + (1.0 - self.weight) * dipole).clamp(0.0, 1.0)
-    }
-
-    fn unit_radial_pdf(&self, r: f64) -> f64 {
-        self.weight * ((-r / self.length).exp() / self.length)
-            + (1.0 - self.weight) * self.dipole.radial_pdf(r)
-    }
-}
-
-impl RadialProfile for ExponentialDipoleProfile {
-    fn surface_albedo(&self) -> f64 {
-        self.surface_albedo
-    }
-
-    /// Infinite at r = 0, as 1/r, unless the exponential has no share.
-    fn area_pdf(&self, radius_mm: f64) -> f64 {
-        let r = self.unit_radius(radius_mm);
-        let exponential = if self.weight > 0.0 {
-            self.weight * ((-r / self.length).exp() / self.length) / (2.0 * PI * r)
-        } else {
-            0.0
-        };
-        let dipole = (1.0 - self.weight) * self.dipole.area_pdf(r);
-        (exponential + dipole) / self.mean_free_path_mm / self.mean_free_path_mm
-    }
-
-    /// (w/d) e^(-r/d) + (1 - w) z r (1 + sρ) e^(-s(ρ - z))/ρ³, at mean free path 1.
-    fn radial_pdf(&self, radius_mm: f64) -> f64 {
-        self.unit_radial_pdf(self.unit_radius(radius_mm)) / self.mean_free_path_mm
-    }
-
-    fn radial_cdf(&self, radius_mm: f64) -> f64 {
-        self.unit_cdf(self.unit_radius(radius_mm))
-    }
-
-    fn radial_tail(&self, radius_mm: f64) -> f64 {
-        self.unit_tail(self.unit_radius(radius_mm))
-    }
-
-    /// Newton's method between the quantiles of the two parts, in the logarithms of r and of the cdf or tail,
-    /// where both parts are nearly straight lines.
-    fn sample_radius(&self, u: f64) -> f64 {
-        if u.is_nan() {
-            return u;
-        }
-        let u = legal_u(u);
-        // Below the smallest normal number logarithms lose their meaning; 0 is off by less than 1e-153 mfp.
-        if u < f64::MIN_POSITIVE {
-            return 0.0;
-        }
-        let log_q = (-u).ln_1p();
-        let of_exponential = -self.length * log_q;
-        let of_dipole = self.dipole.radius_beyond(log_q);
-        let bracket = [of_exponential.min(of_dipole).ln(), of_exponential.max(of_dipole).ln()];
-        let start = self.weight * of_exponential.ln() + (1.0 - self.weight) * of_dipole.ln();
-        let log_r = if u < 0.5 {
-            let log_u = u.ln();
-            let value_and_slope = |log_r: f64| {
-                let r = log_r.exp();
-                let cdf = self.unit_cdf(r);
-                (cdf.ln() - log_u, r * self.unit_radial_pdf(r) / cdf)
-            };
-            increasing_root(value_and_slope, bracket, start, 1.0)
-        } else {
-            let value_and_slope = |log_r: f64| {
-                let r = log_r.exp();
-                let tail = self.unit_tail(r);
-                (log_q - tail.ln(), r * self.unit_radial_pdf(r) / tail)
-            };
-            increasing_root(value_and_slope, bracket, start, 1.0)
-        };
-        log_r.exp() * self.mean_free_path_mm
+        self.dipole_depths_mm()[0]
     }
 }
 
@@ -216,7 +160,8 @@ mod tests {
         for model in [ExponentialDipoleModel::SEARCHLIGHT, ExponentialDipoleModel::DIFFUSE] {
             for surface_albedo in [0.0, 0.3, 0.9, 1.0] {
                 let p = model.profile(Medium::new(surface_albedo, 1.0).unwrap()).unwrap();
-                let (w, d, z, s) = (p.weight, p.length, p.dipole.depth, p.dipole.attenuation);
+                let (w, d) = (p.exponential_weight(), p.exponential_length_mm());
+                let (z, s) = (p.dipole_depth_mm(), p.dipole_attenuation_per_mm());
                 for r in [0.01, 0.3, 1.0, 4.0, 20.0] {
                     let rho = f64::hypot(r, z);
                     let decay = (-s * (rho - z)).exp();
@@ -260,24 +205,27 @@ mod tests {
     #[test]
     fn what_is_no_profile_says_why() {
         let good = ExponentialDipoleModel::SEARCHLIGHT;
-        let fail = |model: ExponentialDipoleModel| model.profile(Medium::new(0.5, 1.0).unwrap()).unwrap_err();
+        let fail = |model: ExponentialDipoleModel| {
+            let error = model.profile(Medium::new(0.5, 1.0).unwrap()).unwrap_err();
+            (error.coefficient(), error.to_string())
+        };
         let at = |value: f64| [value, 0.0, 0.0];
-        let surface_albedo = 0.5;
+        let error = |path: &str, message: &str| (path.to_owned(), format!("{message} at surface albedo 0.5"));
         assert_eq!(
             fail(ExponentialDipoleModel { exponential_weight: at(1.25), ..good }),
-            ModelError::ExponentialWeightOutOfRange { surface_albedo, weight: 1.25 }
+            error("exponential_weight", "the exponential's weight is 1.25")
         );
         assert_eq!(
             fail(ExponentialDipoleModel { exponential_length: at(0.0), ..good }),
-            ModelError::ExponentialLengthNotPositive { surface_albedo, length: 0.0 }
+            error("exponential_length", "the exponential's length is 0")
         );
         assert_eq!(
             fail(ExponentialDipoleModel { dipole_depth: at(-2.0), ..good }),
-            ModelError::DipoleDepthNotPositive { surface_albedo, depth: -2.0 }
+            error("dipole_depth", "the dipole's depth is -2")
         );
         assert_eq!(
             fail(ExponentialDipoleModel { dipole_attenuation: at(-1.0), ..good }),
-            ModelError::NegativeDipoleAttenuation { surface_albedo, attenuation: -0.5 }
+            error("dipole_attenuation", "the dipole's attenuation is -0.5")
         );
     }
 }

@@ -12,7 +12,8 @@
 //!     RadialRow::bin(2.0, 4.0, 0.004),
 //! ];
 //! let data = [RadialData::new(0.4, rows)?];
-//! let fitted = fit(&Family::Burley.start(&data), &data, &Options::default())?;
+//! let burley = Family::from_name("burley").ok_or("no such family")?;
+//! let fitted = fit(&burley.start(&data), &data, &Options::default())?;
 //! assert!(fitted.stop.converged());
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```

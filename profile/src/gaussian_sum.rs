@@ -3,10 +3,16 @@
 //! Source: d'Eon and Luebke 2007, \[GG3\].
 
 use std::f64::consts::PI;
+use std::slice::from_mut;
 
+use crate::description::{
+    Coefficient, Contents, Description, Field, Notation, ProfileModel, Published, Slot, Values, Variable,
+    visit_all,
+};
 use crate::inverse::increasing_root;
+use crate::quantity::Bounds;
 use crate::radial_profile::{legal_radius, legal_u};
-use crate::{Channel, Length, Medium, ModelError, RadialProfile};
+use crate::{Channel, Medium, ModelError, Quantity, RadialData, RadialProfile, Requirement};
 
 /// One Gaussian of a [`GaussianSumModel`]: G(v, r) = e^(-r²/2v)/(2πv).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,16 +47,9 @@ impl GaussianSumModel {
         GaussianTerm { variance_mm2: 7.41, weight: [0.078, 0.0, 0.0] },
     ];
 
-    /// The length this model is said to be parametrized by. It has no effect.
-    pub const LENGTH: Length = Length::MeanFreePath;
-
     /// The profile of one channel. Only the surface albedo of the medium is used.
     pub fn profile(&self, medium: Medium, channel: Channel) -> Result<GaussianSumProfile, ModelError> {
-        let mut errors = Vec::new();
-        self.collect_errors(&mut errors);
-        if let Some(first) = errors.into_iter().next() {
-            return Err(first);
-        }
+        self.validate()?;
         let weight = |term: &GaussianTerm| term.weight[channel.index()];
         // Divided by the largest first, so that no sum of finite weights overflows.
         let largest = self.terms.iter().map(weight).fold(0.0, f64::max);
@@ -64,33 +63,137 @@ impl GaussianSumModel {
         Ok(GaussianSumProfile { surface_albedo: medium.surface_albedo(), gaussians })
     }
 
-    pub(crate) fn collect_errors(&self, errors: &mut Vec<ModelError>) {
-        if self.terms.is_empty() {
-            errors.push(ModelError::NoTerms);
-            return;
+    /// Gaussians of equal weight, whose medians are evenly spaced in the logarithm of the radius between the 5 % and the
+    /// 98 % quantiles of the data.
+    fn spread(terms: usize, data: &[RadialData]) -> Self {
+        let end = |quantile: f64, fallback: f64| {
+            let radii: Vec<f64> =
+                data.iter().map(|data| data.quantile(quantile)).filter(|r| *r > 0.0).collect();
+            let log_mean = radii.iter().map(|r| r.ln()).sum::<f64>() / radii.len() as f64;
+            if radii.is_empty() { fallback } else { log_mean.exp() }
+        };
+        let (near, far) = (end(0.05, 0.05), end(0.98, 5.0));
+        let gaussian = |term: usize| {
+            let median = near * (far / near).powf((term as f64 + 0.5) / terms as f64);
+            // The cdf 1 - e^(-r²/2v) is ½ at r² = 2v ln 2.
+            GaussianTerm {
+                variance_mm2: median * median / (2.0 * std::f64::consts::LN_2),
+                weight: [1.0 / terms as f64; 3],
+            }
+        };
+        GaussianSumModel { terms: (0..terms).map(gaussian).collect() }
+    }
+}
+
+/// There is something to sum.
+static A_TERM: Requirement = Requirement {
+    coefficient: "terms",
+    wrong: "a Gaussian sum needs at least one term",
+    expected: "expected at least one Gaussian",
+    remedy: "for example `GaussianSum([(variance_mm2: 1.0, weight: 1.0)])`",
+};
+
+/// There is something to divide the weights by.
+static A_WEIGHT: Requirement = Requirement {
+    coefficient: "",
+    wrong: "weights of the Gaussians sum to 0",
+    expected: "all weights of this channel are 0",
+    remedy: "give one Gaussian a weight above 0 in each channel; for a black channel set `surface_albedo` to 0",
+};
+
+/// What a file says of one term.
+const TERM: &[Coefficient<GaussianTerm>] = &[
+    Coefficient::new("variance_mm2", "v", "variance along each axis", |term: &mut GaussianTerm| {
+        from_mut(&mut term.variance_mm2)
+    })
+    .quantity(Quantity {
+        noun: "Gaussian variance",
+        unit: "mm²",
+        bounds: Bounds::Positive,
+        kind: "number",
+        meaning: "give the variance v of e^(-r²/2v)/(2πv) along each axis, in mm²",
+    }),
+    Coefficient::new("weight", "w", "share of the energy", |term: &mut GaussianTerm| &mut term.weight)
+        .values(Values::Channels)
+        .quantity(Quantity {
+            noun: "Gaussian weight",
+            unit: "",
+            bounds: Bounds::NonNegative,
+            kind: "number",
+            meaning: "give this Gaussian's share of the energy, 0 or more",
+        }),
+];
+
+impl ProfileModel for GaussianSumModel {
+    const DESCRIPTION: Description = Description {
+        name: "GaussianSum",
+        stem: "gaussian_sum",
+        caption: "Gaussian sum",
+        equation: "R(r)/A = Σ w e^(−r²/2v)/(2πv)",
+        notes: "Variances v are absolute: the mean free path does not scale them. Weights are not all 0 in a channel, \
+                and are divided by their sum per channel. A sum that is neither 1 nor A (± 0.001) is warned of.",
+        source: "d'Eon and Luebke 2007, GPU Gems 3, ch. 14",
+        notation: Notation::Terms {
+            term: "Gaussian",
+            example: "(variance_mm2: 1.0, weight: (0.3, 0.2, 0.1))",
+        },
+        example: "GaussianSum([(variance_mm2: 1.0, weight: 1.0)])",
+        lengths: &[],
+        variable: Variable::SURFACE_ALBEDO,
+    };
+
+    const PUBLISHED: &'static [Published<Self>] = &[Published::new(
+        "gaussian_skin",
+        "",
+        "d'Eon and Luebke 2007, GPU Gems 3, §14.4.5: six Gaussians for human skin",
+        || GaussianSumModel { terms: Self::SKIN.to_vec() },
+    )];
+
+    fn fields() -> Vec<&'static Field> {
+        TERM.iter().map(|coefficient| &coefficient.field).collect()
+    }
+
+    fn blank(terms: usize) -> Option<Self> {
+        Some(GaussianSumModel { terms: vec![GaussianTerm { variance_mm2: 1.0, weight: [1.0; 3] }; terms] })
+    }
+
+    fn visit(&mut self, visitor: &mut dyn FnMut(Slot<'_>)) {
+        for (index, term) in self.terms.iter_mut().enumerate() {
+            visit_all(TERM, term, &format!("terms[{index}]."), visitor);
         }
-        for (index, term) in self.terms.iter().enumerate() {
-            let variance_mm2 = term.variance_mm2;
-            if !variance_mm2.is_finite() {
-                errors.push(ModelError::NotFinite { coefficient: format!("terms[{index}].variance_mm2") });
-            } else if variance_mm2 <= 0.0 {
-                errors.push(ModelError::VarianceNotPositive { term: index, variance_mm2 });
-            }
-            for channel in Channel::ALL {
-                let weight = term.weight[channel.index()];
-                if !weight.is_finite() {
-                    let coefficient = format!("terms[{index}].weight[{}]", channel.index());
-                    errors.push(ModelError::NotFinite { coefficient });
-                } else if weight < 0.0 {
-                    errors.push(ModelError::NegativeWeight { term: index, channel, weight });
-                }
-            }
+    }
+
+    fn boxed_profile(&self, medium: Medium, channel: Channel) -> Result<Box<dyn RadialProfile>, ModelError> {
+        Ok(Box::new(self.profile(medium, channel)?))
+    }
+
+    fn collect_errors(&self, errors: &mut Vec<ModelError>) {
+        if self.terms.is_empty() {
+            errors.push(A_TERM.broken(None));
+            return;
         }
         for channel in Channel::ALL {
             if self.terms.iter().all(|term| term.weight[channel.index()] == 0.0) {
-                errors.push(ModelError::WeightsSumToZero { channel });
+                errors.push(A_WEIGHT.broken(Some(channel)));
             }
         }
+    }
+
+    fn start(data: &[RadialData], terms: usize) -> Option<Self> {
+        Some(Self::spread(terms.max(1), data))
+    }
+
+    fn normalise(&mut self) {
+        let sum: f64 = self.terms.iter().map(|term| term.weight[0]).sum();
+        if sum.is_finite() && sum > 0.0 {
+            for term in &mut self.terms {
+                term.weight = term.weight.map(|weight| weight / sum);
+            }
+        }
+    }
+
+    fn contents(&self) -> Contents<'_> {
+        Contents::Terms(&self.terms)
     }
 }
 
@@ -243,21 +346,18 @@ mod tests {
     fn all_errors_are_found_and_placed() {
         let mut model = one(f64::NAN, [0.1, -0.1, 0.0]);
         model.terms.push(GaussianTerm { variance_mm2: 0.0, weight: [f64::INFINITY, 0.1, 0.0] });
-        let mut errors = Vec::new();
-        model.collect_errors(&mut errors);
+        let messages: Vec<String> = model.errors().iter().map(ToString::to_string).collect();
         assert_eq!(
-            errors,
+            messages,
             [
-                ModelError::NotFinite { coefficient: "terms[0].variance_mm2".into() },
-                ModelError::NegativeWeight { term: 0, channel: Channel::Green, weight: -0.1 },
-                ModelError::VarianceNotPositive { term: 1, variance_mm2: 0.0 },
-                ModelError::NotFinite { coefficient: "terms[1].weight[0]".into() },
-                ModelError::WeightsSumToZero { channel: Channel::Blue },
+                "coefficient `terms[0].variance_mm2` is not a finite number",
+                "`terms[0].weight[1]` is -0.1",
+                "`terms[1].variance_mm2` is 0 mm²",
+                "coefficient `terms[1].weight[0]` is not a finite number",
+                "blue weights of the Gaussians sum to 0",
             ]
         );
-        assert_eq!(
-            GaussianSumModel { terms: Vec::new() }.profile(medium(), Channel::Red),
-            Err(ModelError::NoTerms)
-        );
+        let empty = GaussianSumModel { terms: Vec::new() }.profile(medium(), Channel::Red);
+        assert_eq!(empty, Err(A_TERM.broken(None)));
     }
 }

@@ -44,10 +44,12 @@
 
 mod burley;
 mod channel;
+pub mod description;
 mod deviation;
 mod dipole_source;
 mod edge_spread;
 mod exponential_dipole;
+mod exponential_source_sum;
 #[cfg(feature = "fit")]
 pub mod fit;
 mod gaussian_sum;
@@ -58,6 +60,7 @@ mod model;
 mod model_error;
 mod polynomial;
 pub mod quadrature;
+mod quantity;
 mod radial_data;
 mod radial_profile;
 pub mod single_scattering_albedo;
@@ -69,12 +72,14 @@ pub use channel::Channel;
 pub use deviation::{Deviation, SquaredError, l1, mean_relative_error};
 pub use edge_spread::EdgeSpread;
 pub use exponential_dipole::{ExponentialDipoleModel, ExponentialDipoleProfile};
+pub use exponential_source_sum::ExponentialSourceSum;
 pub use gaussian_sum::{GaussianSumModel, GaussianSumProfile, GaussianTerm};
 pub use length::Length;
 pub use medium::{Medium, MediumError};
-pub use model::Model;
-pub use model_error::ModelError;
+pub use model::{FunctionOfAlbedo, Model, ModelKind, PublishedSet};
+pub use model_error::{ModelError, Requirement};
 pub use polynomial::{PolynomialA, PolynomialB, PolynomialC, PolynomialModel, PolynomialProfile};
+pub use quantity::{Bounds, Quantity, rounded};
 pub use radial_data::{RadialData, RadialDataError, RadialRow};
 pub use radial_profile::RadialProfile;
 pub use tabulated::{TabulatedError, TabulatedKnot, TabulatedModel, TabulatedProfile};

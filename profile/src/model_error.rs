@@ -1,172 +1,161 @@
 //! Why a model has no profile.
 
-use thiserror::Error;
+use std::fmt;
 
-use crate::Channel;
+use crate::quantity::rounded;
+use crate::{Channel, Quantity};
+
+/// What a model demands of its coefficients together, or of what they make at a surface albedo.
+///
+/// It stands in the description of the model, and says in words what is wrong where it is not met.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Requirement {
+    /// Path of the coefficient to blame, such as `exponential_weight`; empty for the model as a whole.
+    pub coefficient: &'static str,
+    /// What is wrong. `{}` stands for the value.
+    pub wrong: &'static str,
+    /// What is expected there.
+    pub expected: &'static str,
+    /// What to change.
+    pub remedy: &'static str,
+}
+
+impl Requirement {
+    /// The error of a value that breaks the requirement at a surface albedo.
+    pub(crate) const fn broken_at(&'static self, surface_albedo: f64, value: f64) -> ModelError {
+        ModelError::Broken {
+            requirement: self,
+            value: Some(value),
+            channel: None,
+            surface_albedo: Some(surface_albedo),
+        }
+    }
+
+    /// The error of coefficients that break the requirement whatever the surface albedo.
+    pub(crate) const fn broken(&'static self, channel: Option<Channel>) -> ModelError {
+        ModelError::Broken { requirement: self, value: None, channel, surface_albedo: None }
+    }
+}
 
 /// Why coefficients describe no profile, or none for a certain medium.
 ///
-/// Each variant names what is wrong and where, so that a caller can point at the place it came from.
-/// `coefficient` is the path of a field from its model, such as `a.linear`, `shape.pivot`,
-/// `terms[2].variance_mm2` or `dipole_depth[0]`.
-#[derive(Clone, Debug, PartialEq, Error)]
+/// Shown, it is the message; [`coefficient`](Self::coefficient), [`expected`](Self::expected) and
+/// [`remedy`](Self::remedy) say where to point, and what to do.
+#[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum ModelError {
     /// A coefficient is infinite or not a number.
-    #[error("coefficient `{coefficient}` is not a finite number")]
     NotFinite {
-        /// Path of the field from its model.
+        /// Path of the field from its model, such as `a.linear`, `terms[2].variance_mm2` or `dipole_depth[0]`.
         coefficient: String,
     },
-    /// A Gaussian sum has no term.
-    #[error("a Gaussian sum needs at least one term")]
-    NoTerms,
-    /// A variance is zero or negative.
-    #[error("variance of Gaussian {term} is {variance_mm2} mm², not above 0")]
-    VarianceNotPositive {
-        /// Index of the term, from 0.
-        term: usize,
-        /// The variance given, mm².
-        variance_mm2: f64,
-    },
-    /// A Gaussian has a negative weight.
-    #[error("{channel} weight of Gaussian {term} is negative: {weight}")]
-    NegativeWeight {
-        /// Index of the term, from 0.
-        term: usize,
-        /// The channel of the weight.
-        channel: Channel,
-        /// The weight given.
-        weight: f64,
-    },
-    /// All weights of a channel are 0, so there is nothing to normalise.
-    #[error("{channel} weights of the Gaussians sum to 0")]
-    WeightsSumToZero {
-        /// The channel without energy.
-        channel: Channel,
-    },
-    /// The polynomial profile reaches 0 at r_max = -b/a ≤ 0, so there is no radius left to scatter in.
-    #[error("maximum radius -b/a is {radius_mm} mm at surface albedo {surface_albedo}, not above 0")]
-    NegativeMaximumRadius {
-        /// -b/a in mm, zero or negative.
-        radius_mm: f64,
-        /// Surface albedo of the medium.
-        surface_albedo: f64,
-    },
-    /// The polynomial profile never reaches 0: a = 0.
-    #[error("the profile has no maximum radius at surface albedo {surface_albedo}: a = 0")]
-    NoMaximumRadius {
-        /// Surface albedo of the medium.
-        surface_albedo: f64,
-    },
-    /// The profile is negative somewhere within its maximum radius.
-    #[error("the profile is negative at radius {radius_mm} mm, surface albedo {surface_albedo}")]
-    NegativeProfile {
-        /// A radius in mm at which the profile is negative.
-        radius_mm: f64,
-        /// Surface albedo of the medium.
-        surface_albedo: f64,
-    },
-    /// The polynomial profile has a pole at r = -c inside its range, so its energy is infinite.
-    #[error(
-        "c is {c_mm} mm at surface albedo {surface_albedo}, not above 0: the profile has a pole at r = -c"
-    )]
-    PoleNotNegative {
-        /// The constant c in mm, zero or negative.
-        c_mm: f64,
-        /// Surface albedo of the medium.
-        surface_albedo: f64,
-    },
-    /// Burley's s(A) is zero, negative, infinite or not a number, so d = length/s is no distance.
-    #[error("shape s is {s} at surface albedo {surface_albedo}, not a finite number above 0")]
-    ShapeNotPositive {
-        /// Surface albedo of the medium.
-        surface_albedo: f64,
-        /// The value of s(A).
-        s: f64,
-    },
-    /// The share w of the exponential is no number from 0 to 1.
-    #[error("exponential weight w is {weight} at surface albedo {surface_albedo}, outside [0, 1]")]
-    ExponentialWeightOutOfRange {
-        /// Surface albedo of the medium.
-        surface_albedo: f64,
-        /// The value of w(A).
-        weight: f64,
-    },
-    /// The decay length d of the exponential is no finite number above 0.
-    #[error(
-        "exponential length d is {length} at surface albedo {surface_albedo}, not a finite number above 0"
-    )]
-    ExponentialLengthNotPositive {
-        /// Surface albedo of the medium.
-        surface_albedo: f64,
-        /// The value of d(A), in mean free paths.
-        length: f64,
-    },
-    /// The depth z of the dipole is no finite number above 0.
-    #[error("dipole depth z is {depth} at surface albedo {surface_albedo}, not a finite number above 0")]
-    DipoleDepthNotPositive {
-        /// Surface albedo of the medium.
-        surface_albedo: f64,
-        /// The value of z(A), in mean free paths.
-        depth: f64,
-    },
-    /// The attenuation s of the dipole is negative or not finite.
-    #[error(
-        "dipole attenuation s is {attenuation} at surface albedo {surface_albedo}, not a finite number from 0"
-    )]
-    NegativeDipoleAttenuation {
-        /// Surface albedo of the medium.
-        surface_albedo: f64,
-        /// The value of s(A), in inverse mean free paths.
-        attenuation: f64,
-    },
-    /// A share is no number from 0 to 1.
-    #[error("`{coefficient}` is {value}, outside [0, 1]")]
-    ShareOutOfRange {
+    /// A coefficient is out of the bounds of its quantity.
+    OutOfBounds {
         /// Path of the field from its model.
-        coefficient: &'static str,
+        coefficient: String,
         /// The value given.
         value: f64,
+        /// What it should be.
+        quantity: &'static Quantity,
     },
-    /// A ratio of two lengths is zero or negative.
-    #[error("`{coefficient}` is {value}, not above 0")]
-    RatioNotPositive {
-        /// Path of the field from its model.
-        coefficient: &'static str,
-        /// The value given.
-        value: f64,
+    /// Coefficients break what their model demands.
+    Broken {
+        /// What is demanded.
+        requirement: &'static Requirement,
+        /// The value that breaks it, where one does.
+        value: Option<f64>,
+        /// The channel in which it is broken, where channels differ.
+        channel: Option<Channel>,
+        /// Surface albedo of the medium; `None` where the coefficients are wrong for every medium.
+        surface_albedo: Option<f64>,
     },
     /// Finite coefficients gave a quantity that is infinite, or too small to divide by.
-    #[error("`{quantity}` is out of the range of numbers at surface albedo {surface_albedo}")]
     OutOfNumericRange {
         /// Symbol of the quantity in the model's equation.
         quantity: &'static str,
         /// Surface albedo of the medium.
         surface_albedo: f64,
     },
+    /// What is wrong with a part of a mixture.
+    OfPart {
+        /// Position of the part, from 0.
+        part: usize,
+        /// What is wrong with it.
+        error: Box<ModelError>,
+    },
 }
 
-/// Adds a [`ModelError::NotFinite`] for each of `(path, value)` that is infinite or not a number.
-pub(crate) fn require_finite<'a>(
-    coefficients: impl IntoIterator<Item = (&'a str, f64)>,
-    errors: &mut Vec<ModelError>,
-) {
-    errors.extend(
-        coefficients
-            .into_iter()
-            .filter(|(_, value)| !value.is_finite())
-            .map(|(path, _)| ModelError::NotFinite { coefficient: path.to_owned() }),
-    );
+impl ModelError {
+    /// Path of the coefficient to blame, from the model; empty for the model as a whole.
+    pub fn coefficient(&self) -> String {
+        match self {
+            Self::NotFinite { coefficient } | Self::OutOfBounds { coefficient, .. } => coefficient.clone(),
+            Self::Broken { requirement, .. } => requirement.coefficient.to_owned(),
+            Self::OutOfNumericRange { .. } => String::new(),
+            Self::OfPart { part, error } => format!("parts[{part}].model.{}", error.coefficient()),
+        }
+    }
+
+    /// What is expected there, in a few words.
+    pub fn expected(&self) -> String {
+        match self {
+            Self::NotFinite { .. } => "not a finite number".to_owned(),
+            Self::OutOfBounds { quantity, .. } => quantity.expected(),
+            Self::Broken { requirement, .. } => requirement.expected.to_owned(),
+            Self::OutOfNumericRange { .. } => "this model has no profile".to_owned(),
+            Self::OfPart { error, .. } => error.expected(),
+        }
+    }
+
+    /// What to change.
+    pub fn remedy(&self) -> &'static str {
+        match self {
+            Self::NotFinite { .. } => Quantity::COEFFICIENT.meaning,
+            Self::OutOfBounds { quantity, .. } => quantity.meaning,
+            Self::Broken { requirement, .. } => requirement.remedy,
+            Self::OutOfNumericRange { .. } => "compare with a published set of coefficients",
+            Self::OfPart { error, .. } => error.remedy(),
+        }
+    }
+
+    /// The surface albedo at which there is no profile; `None` where the coefficients are wrong for every medium.
+    pub fn surface_albedo(&self) -> Option<f64> {
+        match self {
+            Self::NotFinite { .. } | Self::OutOfBounds { .. } => None,
+            Self::Broken { surface_albedo, .. } => *surface_albedo,
+            Self::OutOfNumericRange { surface_albedo, .. } => Some(*surface_albedo),
+            Self::OfPart { error, .. } => error.surface_albedo(),
+        }
+    }
 }
 
-/// An exponential's share of the energy is in [0, 1], and its decay length is positive.
-pub(crate) fn require_exponential(surface_albedo: f64, weight: f64, length: f64) -> Result<(), ModelError> {
-    if !(0.0..=1.0).contains(&weight) {
-        return Err(ModelError::ExponentialWeightOutOfRange { surface_albedo, weight });
+impl fmt::Display for ModelError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NotFinite { coefficient } => {
+                write!(f, "coefficient `{coefficient}` is not a finite number")
+            }
+            Self::OutOfBounds { coefficient, value, quantity } => {
+                let space = if quantity.unit.is_empty() { "" } else { " " };
+                write!(f, "`{coefficient}` is {}{space}{}", rounded(*value), quantity.unit)
+            }
+            Self::Broken { requirement, value, channel, surface_albedo } => {
+                if let Some(channel) = channel {
+                    write!(f, "{channel} ")?;
+                }
+                f.write_str(&requirement.wrong.replace("{}", &value.map_or_else(String::new, rounded)))?;
+                match surface_albedo {
+                    Some(surface_albedo) => write!(f, " at surface albedo {}", rounded(*surface_albedo)),
+                    None => Ok(()),
+                }
+            }
+            Self::OutOfNumericRange { quantity, surface_albedo } => {
+                let at = rounded(*surface_albedo);
+                write!(f, "`{quantity}` is out of the range of numbers at surface albedo {at}")
+            }
+            Self::OfPart { part, error } => write!(f, "part {part} (from 0): {error}"),
+        }
     }
-    if !(length > 0.0 && length.is_finite()) {
-        return Err(ModelError::ExponentialLengthNotPositive { surface_albedo, length });
-    }
-    Ok(())
 }
+
+impl std::error::Error for ModelError {}

@@ -3,12 +3,15 @@
 //! Source: Liang, Gao, Cong and Hao 2023, \[L23\].
 
 use std::f64::consts::PI;
+use std::slice::from_mut;
 
+use crate::description::{
+    Argument, Coefficient, Description, Function, Notation, ProfileModel, Published, Variable,
+};
 use crate::inverse::increasing_root;
-use crate::model_error::require_finite;
 use crate::radial_profile::{legal_radius, legal_u};
 use crate::single_scattering_albedo::{Entry, from_surface_albedo};
-use crate::{Length, Medium, ModelError, RadialProfile};
+use crate::{Channel, Length, Medium, ModelError, RadialProfile, Requirement};
 
 /// Coefficient a(α) of \[L23\] eq. (7) at ℓ = 1, by eq. (11): linear·α + amplitude·10^(decades·(α - 1)).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -127,7 +130,7 @@ impl PolynomialModel {
 
     /// The profile of a medium whose length is the mean free path.
     pub fn profile(&self, medium: Medium) -> Result<PolynomialProfile, ModelError> {
-        let Coefficients { a, b, c } = self.coefficients(medium.surface_albedo(), medium.length_mm())?;
+        let Coefficients { a, b, c } = self.coefficients(medium.surface_albedo())?;
         let surface_albedo = medium.surface_albedo();
         let unit_max_radius = -b / a;
         let x = unit_max_radius / c;
@@ -153,15 +156,14 @@ impl PolynomialModel {
     ///
     /// It does not depend on the mean free path. `surface_albedo` in (0, 1].
     pub fn energy_before_normalization(&self, surface_albedo: f64) -> Result<f64, ModelError> {
-        let Coefficients { a, b, c } = self.coefficients(surface_albedo, 1.0)?;
+        let Coefficients { a, b, c } = self.coefficients(surface_albedo)?;
         let max_radius = -b / a;
         let integral = a * max_radius + (b - a * c) * (max_radius / c).ln_1p();
         Ok(2.0 * PI * integral / surface_albedo.max(Self::MINIMUM_SURFACE_ALBEDO))
     }
 
-    /// a, b, c at ℓ = 1, such that r_max > 0 and the profile is positive on [0, r_max). The errors tell lengths
-    /// at ℓ = `length_mm`.
-    fn coefficients(&self, surface_albedo: f64, length_mm: f64) -> Result<Coefficients, ModelError> {
+    /// a, b, c at ℓ = 1, such that r_max > 0 and the profile is positive on [0, r_max).
+    fn coefficients(&self, surface_albedo: f64) -> Result<Coefficients, ModelError> {
         let alpha = from_surface_albedo(Entry::Searchlight, surface_albedo.max(Self::MINIMUM_SURFACE_ALBEDO));
         let coefficients = Coefficients { a: self.a.at(alpha), b: self.b.at(alpha), c: self.c.at(alpha) };
         let Coefficients { a, b, c } = coefficients;
@@ -171,44 +173,171 @@ impl PolynomialModel {
             }
         }
         if c <= 0.0 {
-            return Err(ModelError::PoleNotNegative { c_mm: c * length_mm, surface_albedo });
+            return Err(C_POSITIVE.broken_at(surface_albedo, c));
         }
         if a == 0.0 {
-            return Err(ModelError::NoMaximumRadius { surface_albedo });
+            return Err(AN_END.broken_at(surface_albedo, a));
         }
         let max_radius = -b / a;
         if max_radius <= 0.0 {
-            return Err(ModelError::NegativeMaximumRadius {
-                radius_mm: max_radius * length_mm,
-                surface_albedo,
-            });
+            return Err(MAXIMUM_RADIUS_POSITIVE.broken_at(surface_albedo, max_radius));
         }
         if a > 0.0 {
             // Then b < 0: the profile climbs from b/c to 0 at r_max.
-            return Err(ModelError::NegativeProfile { radius_mm: 0.0, surface_albedo });
+            return Err(B_POSITIVE.broken_at(surface_albedo, b));
         }
         Ok(coefficients)
     }
+}
 
-    pub(crate) fn collect_errors(&self, errors: &mut Vec<ModelError>) {
-        let PolynomialModel { a, b, c } = self;
-        require_finite(
-            [
-                ("a.linear", a.linear),
-                ("a.amplitude", a.amplitude),
-                ("a.decades", a.decades),
-                ("b.scale", b.scale),
-                ("b.curvature", b.curvature),
-                ("b.pivot", b.pivot),
-                ("b.offset", b.offset),
-                ("b.exponent", b.exponent),
-                ("c.amplitude", c.amplitude),
-                ("c.rate", c.rate),
-                ("c.offset", c.offset),
-            ],
-            errors,
-        );
+/// The profile is positive from its origin on.
+static B_POSITIVE: Requirement = Requirement {
+    coefficient: "b",
+    wrong: "the profile is negative",
+    expected: "b/c is the profile's value at the origin, so b must be above 0",
+    remedy: "b = scale α^(…): give `scale` a value above 0; Liang et al., corrected, have 0.0635",
+};
+
+/// No pole within the profile's range, which would make its energy infinite.
+static C_POSITIVE: Requirement = Requirement {
+    coefficient: "c",
+    wrong: "c is {} mean free paths",
+    expected: "c must be above 0: the profile has a pole at r = -c",
+    remedy: "c = (amplitude e^(rate α) + offset) ℓ: make `offset` larger; Liang et al. have 0.166",
+};
+
+/// What makes a negative.
+const NEGATIVE_A: &str =
+    "a = (linear α + amplitude 10^(decades (α - 1)))/ℓ must be negative: Liang et al. have `linear: -0.0064`";
+
+/// The profile reaches 0 somewhere.
+static AN_END: Requirement = Requirement {
+    coefficient: "a",
+    wrong: "the profile has no maximum radius",
+    expected: "a = 0 here, so the profile never falls to 0",
+    remedy: NEGATIVE_A,
+};
+
+/// It reaches 0 at a radius.
+static MAXIMUM_RADIUS_POSITIVE: Requirement = Requirement {
+    coefficient: "a",
+    wrong: "the maximum radius is {} mean free paths",
+    expected: "r_max = -b/a must be above 0",
+    remedy: NEGATIVE_A,
+};
+
+impl ProfileModel for PolynomialModel {
+    const DESCRIPTION: Description = Description {
+        name: "Polynomial",
+        stem: "polynomial",
+        caption: "polynomial",
+        equation: "r R(r) = (a r + b)/(r + c) up to r_max = −b/a, which must be above 0; divided by its own integral. \
+                   a = (linear α + amplitude 10^(decades (α − 1)))/ℓ, \
+                   b = scale α^((curvature (α − pivot)² + offset) α + exponent), c = (amplitude e^(rate α) + offset) ℓ",
+        notes: "α is the single-scattering albedo that belongs to A.",
+        source: "Liang et al. 2023, eq. (7)",
+        notation: Notation::Fields { key: "coefficients", own: "" },
+        example: "Polynomial(coefficients: Liang2023)",
+        lengths: &[Self::LENGTH],
+        variable: Variable::SURFACE_ALBEDO,
+    };
+
+    const COEFFICIENTS: &'static [Coefficient<Self>] = &[
+        Coefficient::<Self>::new("a.linear", "a", "factor of α", |m| from_mut(&mut m.a.linear))
+            .member("a_linear"),
+        Coefficient::<Self>::new("a.amplitude", "a", "the second term at α = 1", |m| {
+            from_mut(&mut m.a.amplitude)
+        })
+        .member("a_amplitude")
+        .order(1),
+        Coefficient::<Self>::new("a.decades", "a", "decades that it falls to α = 0", |m| {
+            from_mut(&mut m.a.decades)
+        })
+        .member("a_decades")
+        .order(2),
+        Coefficient::<Self>::new("b.scale", "b", "b at α = 1, the paper's k₁", |m| {
+            from_mut(&mut m.b.scale)
+        })
+        .member("b_scale"),
+        Coefficient::<Self>::new("b.curvature", "b", "factor of the square in the exponent", |m| {
+            from_mut(&mut m.b.curvature)
+        })
+        .member("b_curvature")
+        .order(3),
+        Coefficient::<Self>::new("b.pivot", "b", "the α about which the square is symmetric", |m| {
+            from_mut(&mut m.b.pivot)
+        })
+        .member("b_pivot")
+        .order(4),
+        Coefficient::<Self>::new("b.offset", "b", "added to the square", |m| from_mut(&mut m.b.offset))
+            .member("b_offset")
+            .order(2),
+        Coefficient::<Self>::new("b.exponent", "b", "the exponent at α = 0", |m| {
+            from_mut(&mut m.b.exponent)
+        })
+        .member("b_exponent")
+        .order(1),
+        Coefficient::<Self>::new("c.amplitude", "c", "factor of the exponential", |m| {
+            from_mut(&mut m.c.amplitude)
+        })
+        .member("c_amplitude")
+        .order(1),
+        Coefficient::<Self>::new("c.rate", "c", "its growth with α", |m| from_mut(&mut m.c.rate))
+            .member("c_rate")
+            .order(2),
+        Coefficient::<Self>::new("c.offset", "c", "the part that does not depend on α", |m| {
+            from_mut(&mut m.c.offset)
+        })
+        .member("c_offset"),
+    ];
+
+    const PUBLISHED: &'static [Published<Self>] = &[
+        Published::new(
+            "liang_2023",
+            "Liang2023",
+            "Liang et al. 2023, eq. (7), (11)–(15), k₁ corrected to 0.0635",
+            || Self::LIANG_2023,
+        ),
+        Published::new(
+            "liang_2023_printed",
+            "Liang2023Printed",
+            "the same as printed, k₁ = 0.461; for comparison only",
+            || Self::LIANG_2023_PRINTED,
+        ),
+    ];
+
+    const FUNCTIONS: &'static [Function<Self>] = &[
+        Function::<Self>::new("a", "a (1/mean free path)", |m, surface_albedo| m.a.at(alpha(surface_albedo)))
+            .length_power(1)
+            .scaled_by_energy(),
+        Function::<Self>::new("b", "b", |m, surface_albedo| m.b.at(alpha(surface_albedo))).scaled_by_energy(),
+        Function::<Self>::new("c", "c (mean free paths)", |m, surface_albedo| m.c.at(alpha(surface_albedo)))
+            .length_power(-1),
+    ];
+
+    const ARGUMENT: Argument = Argument { label: "single-scattering albedo α", at: alpha };
+
+    fn boxed_profile(&self, medium: Medium, _channel: Channel) -> Result<Box<dyn RadialProfile>, ModelError> {
+        Ok(Box::new(self.profile(medium)?))
     }
+
+    fn energy(&self, surface_albedo: f64) -> Option<Result<f64, ModelError>> {
+        Some(self.energy_before_normalization(surface_albedo))
+    }
+
+    fn make_constant(&mut self, surface_albedo: f64) {
+        let alpha = alpha(surface_albedo);
+        let (a, b, c) = (self.a.at(alpha), self.b.at(alpha), self.c.at(alpha));
+        // a must stay proportional to α: without a term of another sign there is no other constant.
+        self.a = PolynomialA { linear: a / alpha, amplitude: 0.0, ..self.a };
+        self.b = PolynomialB { scale: b, curvature: 0.0, offset: 0.0, exponent: 0.0, ..self.b };
+        self.c = PolynomialC { amplitude: 0.0, offset: c, ..self.c };
+    }
+}
+
+/// α of the paper's setting.
+fn alpha(surface_albedo: f64) -> f64 {
+    from_surface_albedo(Entry::Searchlight, surface_albedo)
 }
 
 /// a, b, c of \[L23\] eq. (7) at ℓ = 1.
@@ -433,17 +562,15 @@ mod tests {
         };
         let surface_albedo = 0.5;
         assert!(with(-1.0, 1.0, 1.0).is_ok());
-        assert_eq!(
-            with(-1.0, -2.0, 1.0),
-            Err(ModelError::NegativeMaximumRadius { radius_mm: -20.0, surface_albedo })
-        );
-        assert_eq!(
-            with(1.0, 2.0, 1.0),
-            Err(ModelError::NegativeMaximumRadius { radius_mm: -20.0, surface_albedo })
-        );
-        assert_eq!(with(1.0, -2.0, 1.0), Err(ModelError::NegativeProfile { radius_mm: 0.0, surface_albedo }));
-        assert_eq!(with(0.0, 1.0, 1.0), Err(ModelError::NoMaximumRadius { surface_albedo }));
-        assert_eq!(with(-1.0, 1.0, -0.5), Err(ModelError::PoleNotNegative { c_mm: -5.0, surface_albedo }));
-        assert_eq!(with(-1.0, 1.0, 0.0), Err(ModelError::PoleNotNegative { c_mm: 0.0, surface_albedo }));
+        for (a, b, c, expected) in [
+            (-1.0, -2.0, 1.0, MAXIMUM_RADIUS_POSITIVE.broken_at(surface_albedo, -2.0)),
+            (1.0, 2.0, 1.0, MAXIMUM_RADIUS_POSITIVE.broken_at(surface_albedo, -2.0)),
+            (1.0, -2.0, 1.0, B_POSITIVE.broken_at(surface_albedo, -2.0)),
+            (0.0, 1.0, 1.0, AN_END.broken_at(surface_albedo, 0.0)),
+            (-1.0, 1.0, -0.5, C_POSITIVE.broken_at(surface_albedo, -0.5)),
+            (-1.0, 1.0, 0.0, C_POSITIVE.broken_at(surface_albedo, 0.0)),
+        ] {
+            assert_eq!(with(a, b, c), Err(expected), "{a} {b} {c}");
+        }
     }
 }

@@ -5,10 +5,11 @@
 use std::f64::consts::PI;
 
 use proptest::prelude::*;
+use subsurface_profile::description::Dependence;
 use subsurface_profile::quadrature::Quadrature;
 use subsurface_profile::{
     BurleyModel, BurleyShape, Channel, ExponentialDipoleModel, GaussianSumModel, GaussianTerm, Length,
-    Medium, Model, PolynomialA, PolynomialB, PolynomialC, PolynomialModel, RadialProfile,
+    Medium, Model, ModelKind, PolynomialA, PolynomialB, PolynomialC, PolynomialModel, RadialProfile,
     TwoExponentialDipoleModel,
 };
 
@@ -72,8 +73,9 @@ impl Case {
 /// Every published model over the whole domain.
 fn domain() -> impl Iterator<Item = Case> {
     Model::PUBLISHED.into_iter().flat_map(|stem| {
-        // Only the Gaussian sum tells channels apart; for the others one channel says it all.
-        let channels = if stem == "gaussian_skin" { &Channel::ALL[..] } else { &Channel::ALL[..1] };
+        // Where channels do not differ, one says it all.
+        let dependence = Model::published(stem).unwrap().dependence();
+        let channels = if dependence.on_channel() { &Channel::ALL[..] } else { &Channel::ALL[..1] };
         channels.iter().flat_map(move |channel| {
             surface_albedos()
                 .flat_map(move |a| LENGTHS_MM.into_iter().map(move |l| Case::new(stem, a, l, *channel)))
@@ -90,11 +92,51 @@ fn coefficients_are_valid_and_stems_are_known() {
 }
 
 #[test]
-fn only_the_gaussian_sum_tells_channels_apart() {
+fn a_profile_depends_on_what_its_model_says() {
     for stem in Model::PUBLISHED {
-        let [red, green, blue] =
-            Channel::ALL.map(|channel| Case::new(stem, 0.5, 1.0, channel).profile.radial_cdf(0.4));
-        assert_eq!(red == green && green == blue, stem != "gaussian_skin", "{stem}");
+        let dependence = Model::published(stem).unwrap().dependence();
+        let cdf = |surface_albedo, length_mm, channel| {
+            Case::new(stem, surface_albedo, length_mm, channel).profile.radial_cdf(0.4)
+        };
+        let [red, green, blue] = Channel::ALL.map(|channel| cdf(0.5, 1.0, channel));
+        assert_eq!(red == green && green == blue, !dependence.on_channel(), "{stem}");
+        assert_eq!(red == cdf(0.5, 2.0, Channel::Red), !dependence.on_length(), "{stem}");
+        assert_eq!(red == cdf(0.9, 1.0, Channel::Red), !dependence.on_length(), "{stem}");
+    }
+}
+
+#[test]
+fn every_model_describes_itself() {
+    let kinds = ModelKind::ALL;
+    let stems: Vec<&str> = kinds.iter().flat_map(|kind| kind.published()).map(|set| set.stem).collect();
+    assert_eq!(stems, Model::PUBLISHED);
+    for kind in kinds {
+        let description = kind.description();
+        assert_eq!(ModelKind::named(description.name), Some(*kind));
+        assert_eq!(ModelKind::of_stem(description.stem), Some(*kind));
+        assert!(description.example.starts_with(description.name), "{kind:?}");
+        for set in kind.published() {
+            assert_eq!((set.kind, set.model.kind()), (*kind, *kind));
+            assert_eq!(set.model.functions_at(0.5).len(), kind.functions().len(), "{}", set.stem);
+        }
+        // Each field is visited, holds as many numbers as it says, and is written where it is read.
+        let Some(mut blank) = kind.blank(2) else { continue };
+        let mut visited = Vec::new();
+        let mut number = 0.0;
+        blank.visit(&mut |slot| {
+            assert_eq!(slot.values.len(), slot.field.values.count(), "{}", slot.path());
+            for value in slot.values.iter_mut() {
+                number += 1.0;
+                *value = number;
+            }
+            visited.push(slot.field.path);
+        });
+        let fields: Vec<&str> = kind.fields().iter().map(|field| field.path).collect();
+        assert_eq!(visited.len() % fields.len(), 0, "{kind:?}");
+        assert!(visited.chunks(fields.len()).all(|term| *term == fields[..]), "{kind:?}");
+        let mut read = Vec::new();
+        blank.visit(&mut |slot| read.extend_from_slice(slot.values));
+        assert!(read.iter().zip(1..).all(|(value, number)| *value == f64::from(number)), "{read:?}");
     }
 }
 
@@ -235,7 +277,7 @@ fn samples_begin_at_0_increase_and_stay_finite() {
 
 #[test]
 fn a_profile_scales_with_its_length() {
-    for case in domain().filter(|case| !matches!(case.model, Model::GaussianSum(_))) {
+    for case in domain().filter(|case| case.model.dependence() == Dependence::Medium) {
         let l = case.length_mm;
         let unit = case.model.profile(Medium::new(case.surface_albedo, 1.0).unwrap(), case.channel).unwrap();
         for r in &case.radii()[2..] {
@@ -400,43 +442,20 @@ proptest! {
     /// Whatever the numbers, a caller gets a profile or an error, never a panic.
     #[test]
     fn no_coefficients_panic(values in prop::collection::vec(prop::num::f64::ANY, 12), surface_albedo in 0.0..=1.0f64) {
-        let v = |index: usize| values[index];
-        let triple = |index: usize| [v(index), v(index + 1), v(index + 2)];
-        let models = [
-            Model::Burley(BurleyModel {
-                length: Length::MeanFreePath,
-                shape: BurleyShape { constant: v(0), slope: v(1), amplitude: v(2), pivot: v(3), exponent: v(4) },
-            }),
-            Model::Polynomial(PolynomialModel {
-                a: PolynomialA { linear: v(0), amplitude: v(1), decades: v(2) },
-                b: PolynomialB { scale: v(3), curvature: v(4), pivot: v(5), offset: v(6), exponent: v(7) },
-                c: PolynomialC { amplitude: v(8), rate: v(9), offset: v(10) },
-            }),
-            Model::GaussianSum(GaussianSumModel {
-                terms: (0..3)
-                    .map(|term| GaussianTerm {
-                        variance_mm2: v(4 * term).abs(),
-                        weight: triple(4 * term + 1).map(f64::abs),
-                    })
-                    .collect(),
-            }),
-            Model::TwoExponentialDipole(TwoExponentialDipoleModel {
-                exponential_weight: [v(0).abs().min(1.0), 0.0, 0.0, 0.0],
-                exponential_length: [v(1), v(2), v(3), v(4)],
-                dipole_depth: [v(5), v(6), v(7), v(8)],
-                dipole_attenuation: [v(9), v(10), v(11), v(0)],
-                short_weight: v(1).abs().min(1.0),
-                short_length: v(2).abs(),
-                second_weight: v(3).abs().min(1.0),
-                second_depth: v(4).abs(),
-            }),
-            Model::ExponentialDipole(ExponentialDipoleModel {
-                exponential_weight: [v(0).abs().min(1.0), 0.0, 0.0],
-                exponential_length: triple(3),
-                dipole_depth: triple(6),
-                dipole_attenuation: triple(9),
-            }),
-        ];
+        // Each number as it is, and within bounds that it may have: a share, or 0 or more.
+        let as_is: fn(f64) -> f64 = |value| value;
+        let models = ModelKind::ALL.iter().filter_map(|kind| kind.blank(3)).flat_map(|blank| {
+            let values = &values;
+            [as_is, f64::abs, |value| value.abs().min(1.0)].map(|legal| {
+                let (mut model, mut next) = (blank.clone(), values.iter().cycle());
+                model.visit(&mut |slot| {
+                    for (place, value) in slot.values.iter_mut().zip(next.by_ref()) {
+                        *place = legal(*value);
+                    }
+                });
+                model
+            })
+        });
         for model in models {
             for channel in Channel::ALL {
                 if let Ok(p) = model.profile(Medium::new(surface_albedo, 1.0).unwrap(), channel) {

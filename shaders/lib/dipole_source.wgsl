@@ -35,10 +35,10 @@ fn dipole_source_distribution(depth: f32, attenuation: f32, radius_mm: f32) -> v
     return vec3f(within, outside, outside * sine * sine * (1.0 + attenuation * rho));
 }
 
-/// Bounds of the radius that `dipole_source_radius` finds.
+/// Bounds of the radius within which the fraction u of the source's light leaves, given −ln(1 − u).
 ///
-/// τ + sz (e^τ − 1) = −ln(1 − u) in τ = ln(ρ/z): each term alone gives an upper bound of τ, and e^τ − 1 ≤ τ e^τ with
-/// that bound in the exponent gives a lower one.
+/// (z/ρ) e^(−s(ρ−z)) = 1 − u reads τ + sz (e^τ − 1) = −ln(1 − u) in τ = ln(ρ/z): each term alone gives an upper bound
+/// of τ, and e^τ − 1 ≤ τ e^τ with that bound in the exponent gives a lower one.
 fn dipole_source_radius_bounds(depth: f32, attenuation: f32, target_log: f32) -> vec2f {
     let optical_depth = attenuation * depth;
     let highest = min(target_log, log_one_plus(target_log / max(optical_depth, 1e-20)));
@@ -47,24 +47,4 @@ fn dipole_source_radius_bounds(depth: f32, attenuation: f32, target_log: f32) ->
         exp(lowest) * sqrt(one_minus_exp(2.0 * lowest)),
         exp(highest) * sqrt(one_minus_exp(2.0 * highest)),
     );
-}
-
-/// Radius within which the fraction u of the source's light leaves, given −ln(1 − u).
-///
-/// (z/ρ) e^(−s(ρ−z)) = 1 − u reads t + s eᵗ = ln z + s z − ln(1 − u) in t = ln ρ: convex and rising, so Newton's method
-/// falls monotonically from either of two upper bounds, ρ ≤ z/(1 − u) and ρ ≤ z − ln(1 − u)/s.
-fn dipole_source_radius(depth: f32, attenuation: f32, target_log: f32) -> f32 {
-    // Everything relative to z: τ = ln(ρ/z), τ + sz (e^τ − 1) = −ln(1 − u).
-    let optical_depth = attenuation * depth;
-    var tau = min(target_log, log_one_plus(target_log / max(optical_depth, 1e-20)));
-    for (var step = 0; step < 6; step += 1) {
-        let growth = exp(tau);
-        let excess = tau + optical_depth * (growth - 1.0) - target_log;
-        tau = max(tau - excess / (1.0 + optical_depth * growth), 0.0);
-        if abs(excess) <= 1e-7 * target_log {
-            break;
-        }
-    }
-    // r² = ρ² − z² = z² (e^2τ − 1) = z² e^2τ (1 − e^−2τ)
-    return depth * exp(tau) * sqrt(one_minus_exp(2.0 * tau));
 }

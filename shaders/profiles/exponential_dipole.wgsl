@@ -1,4 +1,4 @@
-// uses: lib/{angle, dipole_source, exponential, numeric_limits}
+// uses: lib/{angle, dipole_source, exponential, exponential_source_sum, numeric_limits}
 
 // Exponential + dipole: 1 − cdf(r) = w e^(−r/d) + (1 − w) (z/ρ) e^(−s(ρ − z)), ρ = √(r² + z²).
 // An exponential for the light that scattered a few times near the entry, and the field of one source at depth z
@@ -47,35 +47,7 @@ fn exponential_dipole_radial_cdf(profile: vec4f, radius_mm: f32) -> f32 {
 }
 
 /// Inverse of `exponential_dipole_radial_cdf`.
-///
-/// A mixture's quantile lies between those of its two parts, and below the radius at which the exponential's share
-/// alone has the fraction u; Newton's method inside that bracket, halving it wherever a step would leave it.
 fn exponential_dipole_sample_radius(profile: vec4f, u: f32) -> f32 {
-    let target_log = negative_log_complement(u);
-    let exponential_radius = profile.y * target_log;
-    let dipole_radius = dipole_source_radius(profile.z, profile.w, target_log);
-    var low = min(exponential_radius, dipole_radius);
-    var high = max(exponential_radius, dipole_radius);
-    if u < profile.x {
-        high = max(low, min(high, profile.y * negative_log_complement(u / profile.x)));
-    }
-    var radius = clamp(mix(dipole_radius, exponential_radius, profile.x), low, high);
-    for (var step = 0; step < 12; step += 1) {
-        let excess = exponential_dipole_radial_cdf(profile, radius) - u;
-        if excess > 0.0 {
-            high = radius;
-        } else {
-            low = radius;
-        }
-        var next = radius - excess / exponential_dipole_radial_pdf(profile, radius);
-        if !(next >= low && next <= high) {
-            next = 0.5 * (low + high);
-        }
-        let change = abs(next - radius);
-        radius = next;
-        if change <= 1e-6 * radius {
-            break;
-        }
-    }
-    return radius;
+    let weights = vec4f(profile.x, 0.0, 1.0 - profile.x, 0.0);
+    return exponential_source_radius(weights, profile.yy, profile.zz, profile.w, u);
 }

@@ -1,4 +1,4 @@
-// uses: lib/{angle, dipole_source, exponential, numeric_limits}
+// uses: lib/{angle, dipole_source, exponential, exponential_source_sum, numeric_limits}
 
 // Two exponentials + dipole: 1 − cdf(r) = w ((1 − a) e^(−r/d) + a e^(−r/bd)) + (1 − w) ((1 − h) D(z) + h D(kz)),
 // D(z) = (z/ρ) e^(−s(ρ − z)), ρ = √(r² + z²).
@@ -81,58 +81,9 @@ fn two_exponential_dipole_radial_cdf(profile: vec4f, shape: vec4f, radius_mm: f3
 }
 
 /// Inverse of `two_exponential_dipole_radial_cdf`.
-///
-/// Newton's method in ln r on the logarithm of the cdf or, in the far half, of the tail: both are nearly straight. A
-/// mixture's quantile lies between those of its parts, and the mean of their logarithms is a good start. Three
-/// evaluations in the mean and five at most over all published coefficients.
 fn two_exponential_dipole_sample_radius(profile: vec4f, shape: vec4f, u: f32) -> f32 {
-    let target_log = negative_log_complement(u);
-    if target_log <= 0.0 {
-        return 0.0;
-    }
     let weights = two_exponential_dipole_weights(profile, shape);
     let lengths = profile.y * vec2f(1.0, shape.y);
     let depths = profile.z * vec2f(1.0, shape.w);
-    let first = dipole_source_radius_bounds(depths.x, profile.w, target_log);
-    let second = dipole_source_radius_bounds(depths.y, profile.w, target_log);
-    let lowest = vec4f(lengths * target_log, first.x, second.x);
-    // Not those of parts without a share: where the tail of the others has underflowed, no step leads back.
-    let highest = select(vec4f(0.0), vec4f(lengths * target_log, first.y, second.y), weights > vec4f(0.0));
-    var low = log(max(min(min(lowest.x, lowest.y), min(lowest.z, lowest.w)), SMALLEST_RADIUS_MM));
-    var high = max(log(max(max(highest.x, highest.y), max(highest.z, highest.w))), low);
-    var log_radius = clamp(dot(weights, log(max(highest, vec4f(SMALLEST_RADIUS_MM)))), low, high);
-    for (var step = 0; step < 12; step += 1) {
-        let radius = exp(log_radius);
-        let ratios = radius / lengths;
-        let decays = exp(-ratios);
-        let of_first = dipole_source_distribution(depths.x, profile.w, radius);
-        let of_second = dipole_source_distribution(depths.y, profile.w, radius);
-        // r times the density per radius: the slope of the cdf over ln r.
-        let slope = dot(weights, vec4f(ratios * decays, of_first.z, of_second.z));
-        var newton: f32;
-        if u < 0.5 {
-            let near = vec2f(one_minus_exp(ratios.x), one_minus_exp(ratios.y));
-            let cdf = dot(weights, vec4f(near, of_first.x, of_second.x));
-            newton = log(cdf / u) * cdf / slope;
-        } else {
-            let tail = dot(weights, vec4f(decays, of_first.y, of_second.y));
-            newton = (-log(tail) - target_log) * tail / slope;
-        }
-        if newton > 0.0 {
-            high = log_radius;
-        } else {
-            low = log_radius;
-        }
-        var next = log_radius - newton;
-        if !(next >= low && next <= high) {
-            next = 0.5 * (low + high);
-        }
-        let change = abs(next - log_radius);
-        log_radius = next;
-        // The error after a step is of the order of its square.
-        if change <= 5e-4 {
-            break;
-        }
-    }
-    return exp(log_radius);
+    return exponential_source_radius(weights, lengths, depths, profile.w, u);
 }

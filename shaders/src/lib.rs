@@ -41,6 +41,7 @@ pub const LIBRARY: &[Module] = modules![
     "lib/dipole_source",
     "lib/distance",
     "lib/exponential",
+    "lib/exponential_source_sum",
     "lib/noise",
     "lib/numeric_limits",
     "lib/shared_exponent",

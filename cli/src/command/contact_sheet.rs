@@ -14,12 +14,14 @@ use crate::scene::camera::{Camera, DEFAULT_FOV_Y_DEGREES, Light, Size};
 use clap::{Args, value_parser};
 use std::path::{Path, PathBuf};
 use subsurface_codegen::Compiler;
+use subsurface_profile::ModelKind;
 
 /// Arguments of `subsurface contact-sheet`.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
   subsurface contact-sheet --out sheet.png
+  subsurface contact-sheet --model burley_searchlight --model burley_diffuse --out two.png
   subsurface contact-sheet --mesh head.glb --material skin --size 640x800 --kernel interleaved:8 --out sheet.png")]
 pub struct ContactSheetArguments {
     /// Directory of materials: one .ron file each, profiles in DIR/profiles.
@@ -31,6 +33,10 @@ pub struct ContactSheetArguments {
     /// Material of the set; it must give its mean free path.
     #[arg(long, value_name = "NAME", default_value = DEFAULT_MATERIAL)]
     pub material: String,
+    /// A profile to show: the stem of a file in DIR/profiles, or the name of a built-in profile. May be given several
+    /// times; by default one of each model.
+    #[arg(long = "model", value_name = "STEM")]
+    pub models: Vec<String>,
     /// Size of each tile in pixels.
     #[arg(long, value_name = "WxH", default_value = "480x600")]
     pub size: Size,
@@ -52,17 +58,22 @@ fn png(text: &str) -> Result<PathBuf, String> {
     }
 }
 
-/// The tiles: caption, and the stem of the profile; without one, no subsurface pass.
-const TILES: [(&str, Option<&str>); 5] = [
-    ("no subsurface", None),
-    ("Gaussian sum", Some("gaussian_skin")),
-    ("Burley", Some("burley_searchlight")),
-    ("polynomial", Some("liang_2023")),
-    ("two exp. + dipole", Some("two_exponential_dipole_searchlight")),
-];
+/// A tile: its caption, and the stem of its profile; without one, there is no subsurface pass.
+type TileOf = (String, Option<String>);
+
+/// The surface alone, then the models given; for none, each model that has a published set, with its first.
+fn tiles(models: &[String]) -> Vec<TileOf> {
+    let given = models.iter().map(|stem| (stem.clone(), Some(stem.clone())));
+    let all = ModelKind::ALL.iter().filter_map(|kind| {
+        let first = kind.published().into_iter().next()?;
+        Some((kind.description().caption.to_owned(), Some(first.stem.to_owned())))
+    });
+    let surface = std::iter::once(("no subsurface".to_owned(), None));
+    if models.is_empty() { surface.chain(all).collect() } else { surface.chain(given).collect() }
+}
 
 /// Tiles in a row.
-const COLUMNS: u32 = 5;
+const COLUMNS: u32 = 4;
 
 /// Runs the command.
 pub fn run(arguments: &ContactSheetArguments) -> Result<(), Failure> {
@@ -70,17 +81,18 @@ pub fn run(arguments: &ContactSheetArguments) -> Result<(), Failure> {
     let original = material_set::compile(&arguments.materials)?;
     material_set::number(&original, &arguments.material)?;
     // One set, hence one kernel module, holds all variants.
-    let files = with_variants(&original.files_read, arguments)?;
+    let shown = tiles(&arguments.models);
+    let files = with_variants(&original.files_read, &shown, arguments)?;
     let materials = arguments.kernel.compile(&Compiler::from_memory(files))?;
     // Without an adapter, there is no point in sculpting.
     let mut studio = Studio::open(&materials, arguments.kernel.path())?;
     say!("{}", studio.description());
     let scene = load_scene(&arguments.mesh)?;
     let camera = Camera::framing(&scene, arguments.size.aspect(), DEFAULT_FOV_Y_DEGREES);
-    let progress = bar(TILES.len() as u64, "drawing");
+    let progress = bar(shown.len() as u64, "drawing");
     let mut tiles = Vec::new();
-    for (caption, profile) in TILES {
-        let name = profile.map_or_else(|| arguments.material.clone(), variant_name);
+    for (caption, profile) in &shown {
+        let name = profile.as_deref().map_or_else(|| arguments.material.clone(), variant_name);
         let material = material_set::number(&materials, &name)?;
         let drawn = studio.draw(&Frame {
             scene: &scene,
@@ -93,7 +105,7 @@ pub fn run(arguments: &ContactSheetArguments) -> Result<(), Failure> {
             wants_timings: true,
             supersampling: arguments.supersample,
         })?;
-        tiles.push(Tile { picture: drawn.display, caption: caption.to_owned() });
+        tiles.push(Tile { picture: drawn.display, caption: caption.clone() });
         let total: f64 = drawn.timings.iter().map(|(_, time)| time.as_secs_f64()).sum();
         let passes: Vec<String> = drawn
             .timings
@@ -120,6 +132,7 @@ fn variant_name(stem: &str) -> String {
 /// The files of the set, and for each tile a material that inherits everything but the profile.
 fn with_variants(
     files: &[PathBuf],
+    shown: &[TileOf],
     arguments: &ContactSheetArguments,
 ) -> Result<Vec<(PathBuf, Vec<u8>)>, Failure> {
     let mut all = Vec::new();
@@ -132,7 +145,7 @@ fn with_variants(
         })?;
         all.push((path.strip_prefix(&arguments.materials).unwrap_or(path).to_owned(), bytes));
     }
-    for stem in TILES.iter().filter_map(|(_, stem)| *stem) {
+    for stem in shown.iter().filter_map(|(_, stem)| stem.as_deref()) {
         all.push(variant(stem, &arguments.material));
     }
     Ok(all)

@@ -50,7 +50,7 @@ impl KernelModule {
             }
         };
         let in_use = |module: &&Module| {
-            emitted.models.iter().any(|model| module.name == format!("profiles/{}", model.stem()))
+            emitted.models.iter().any(|model| module.name == format!("profiles/{}", model.description().stem))
         };
         let rooms: Vec<Module> = [LIBRARY, GATHER, KERNELS, LIGHT]
             .into_iter()

@@ -39,9 +39,10 @@ fn knots(row: &Row, next: bool) -> Vec<f32> {
 /// The model's profile for a row of curves: of the node, or of the channel.
 fn profile(model: &Model, node: usize) -> Box<dyn RadialProfile> {
     let node = u32::try_from(node).expect("few rows");
-    let (surface_albedo, channel) = match model {
-        Model::GaussianSum(_) => (0.5, Channel::ALL[node as usize]),
-        _ => (1.0 - (1.0 - f64::from(node) / 15.0).powi(2), Channel::Red),
+    let (surface_albedo, channel) = if model.dependence().on_channel() {
+        (0.5, Channel::ALL[node as usize])
+    } else {
+        (1.0 - (1.0 - f64::from(node) / 15.0).powi(2), Channel::Red)
     };
     let medium = Medium::new(surface_albedo.min(0.999), 1.0).expect("a legal medium");
     model.profile(medium, channel).expect("a published model has a profile")
@@ -52,7 +53,7 @@ fn radii_rise_within_a_row_and_hold_the_share_they_stand_for() {
     for (name, set) in sets() {
         let curves = bake(&set, false);
         let model = &set.materials[0].profile.model;
-        assert_eq!(curves.rows.len(), if matches!(model, Model::GaussianSum(_)) { 3 } else { 16 }, "{name}");
+        assert_eq!(curves.rows.len(), if model.dependence().on_channel() { 3 } else { 16 }, "{name}");
         for (node, row) in curves.rows.iter().enumerate() {
             assert!(row.iter().all(|texel| texel[1] > 0.0 && texel[3] > 0.0), "{name} {node}: a plateau");
             let radii = knots(row, false);
@@ -74,7 +75,7 @@ fn radii_rise_within_a_row_and_hold_the_share_they_stand_for() {
 #[test]
 fn a_row_holds_the_next_one_and_the_last_itself() {
     for (name, set) in sets() {
-        let channels = matches!(set.materials[0].profile.model, Model::GaussianSum(_));
+        let channels = set.materials[0].profile.model.dependence().on_channel();
         for with_edges in [false, true] {
             let curves = bake(&set, with_edges);
             let count = curves.places[0].curve_count as usize;

@@ -1,6 +1,7 @@
 //! Weights of Gaussians that sum neither to 1 nor to the surface albedo.
 
-use subsurface_profile::{Channel, Model};
+use subsurface_profile::Channel;
+use subsurface_profile::description::Contents;
 
 use crate::diagnostics::Diagnostic;
 use crate::resolve::Draft;
@@ -12,13 +13,13 @@ const TOLERANCE: f64 = 0.001;
 /// Weights are shares of the reflected light: they sum to 1, or to the surface albedo when that is already applied.
 /// Any other sum is normalised away as well, but is more likely a typing error.
 pub(super) fn check(material: &Draft<'_>, diagnostics: &mut Vec<Diagnostic>) {
-    let Model::GaussianSum(model) = &material.profile.model else { return };
+    let Contents::Terms(terms) = material.profile.model.contents() else { return };
     let is_near = |a: f64, b: f64| (a - b).abs() <= TOLERANCE + 1e-9; // the slack covers the rounding of the sum
     let suspect: Vec<(Channel, f64, f64)> = Channel::ALL
         .into_iter()
         .map(|channel| {
             let index = channel.index();
-            let sum = model.terms.iter().map(|term| term.weight[index]).sum();
+            let sum = terms.iter().map(|term| term.weight[index]).sum();
             (channel, sum, material.surface_albedo.values[index])
         })
         .filter(|&(_, sum, surface_albedo)| !is_near(sum, 1.0) && !is_near(sum, surface_albedo))

@@ -1,7 +1,7 @@
 //! Lengths that look like another unit, or another quantity.
 
+use subsurface_profile::Length;
 use subsurface_profile::single_scattering_albedo::{Entry, from_surface_albedo};
-use subsurface_profile::{Length, Model};
 
 use crate::diagnostics::Diagnostic;
 use crate::resolve::Draft;
@@ -43,7 +43,7 @@ pub(super) fn check(material: &Draft<'_>, diagnostics: &mut Vec<Diagnostic>) {
 
 fn check_parametrization(material: &Draft<'_>, diagnostics: &mut Vec<Diagnostic>) {
     let length = material.length;
-    let is_scaled = !matches!(material.profile.model, Model::GaussianSum(_));
+    let is_scaled = material.profile.model.dependence().on_length();
     let takes_diffuse = material.profile.model.length() == Length::DiffuseMeanFreePath;
     if !(is_scaled && takes_diffuse && length.kind == Length::MeanFreePath) {
         return;

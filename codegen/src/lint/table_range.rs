@@ -1,6 +1,7 @@
 //! Surface albedos beyond those of a table.
 
-use subsurface_profile::{Channel, Model};
+use subsurface_profile::Channel;
+use subsurface_profile::description::Contents;
 
 use crate::diagnostics::Diagnostic;
 use crate::resolve::Draft;
@@ -13,7 +14,7 @@ const TOLERANCE: f64 = 0.0005;
 /// Warns of surface albedos for which the nearest table stands in. Not of a single table, which is the shape for all;
 /// and not of 0, which shows none.
 pub(super) fn check(material: &Draft<'_>, diagnostics: &mut Vec<Diagnostic>) {
-    let Model::Tabulated(model) = &material.profile.model else { return };
+    let Contents::Table(model) = material.profile.model.contents() else { return };
     let mut known = model.surface_albedos();
     // What is left after the first has no last where there is only one.
     let (Some(least), Some(most)) = (known.next(), known.last()) else { return };

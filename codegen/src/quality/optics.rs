@@ -3,7 +3,7 @@
 use subsurface_kernel::constants::FILTER_QUANTILE;
 use subsurface_profile::{Channel, Medium, Model, RadialProfile};
 
-use crate::curves::{Knots, NoProfile, depends_on_channel, quantiles};
+use crate::curves::{Knots, NoProfile, quantiles};
 use crate::material::Material;
 
 use super::density_table::DensityTable;
@@ -25,7 +25,7 @@ impl Appearance {
     fn of(material: &Material) -> Self {
         let model = material.profile.model.clone();
         let longest = material.length_mm.into_iter().fold(0.0, f64::max);
-        let (lengths, surface_albedo) = if depends_on_channel(&model) {
+        let (lengths, surface_albedo) = if model.dependence().on_channel() {
             // Neither plays a part.
             ([1.0; 3], [0.5; 3])
         } else {
@@ -94,7 +94,7 @@ impl Optics {
             let curve = quantiles(&*profile(channel, surface_albedo.min(LARGEST_SURFACE_ALBEDO))?);
             // Edge curves of all surface albedos, or of all channels, end where the widest does.
             let mut edge_reach = profile(channel, LARGEST_SURFACE_ALBEDO)?.sample_radius(LAST_SHARE);
-            if depends_on_channel(&appearance.model) {
+            if appearance.model.dependence().on_channel() {
                 for other in Channel::ALL {
                     edge_reach = edge_reach.max(profile(other, 0.5)?.sample_radius(LAST_SHARE));
                 }

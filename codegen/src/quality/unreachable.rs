@@ -2,7 +2,6 @@
 
 use crate::curves::NoProfile;
 use crate::diagnostics::Diagnostic;
-use crate::emit::EmitError;
 use subsurface_kernel::Estimator;
 
 use super::request::QualityRequest;
@@ -20,7 +19,7 @@ impl From<Unreachable> for Diagnostic {
     fn from(error: Unreachable) -> Self {
         let (request, best, error) = match error {
             Unreachable::OutOfReach { request, best, error } => (request, best, error),
-            Unreachable::NoProfile(error) => return EmitError::NoProfile(error).into(),
+            Unreachable::NoProfile(error) => return error.into(),
         };
         let target = request.quality.target();
         let who = match request.estimator {

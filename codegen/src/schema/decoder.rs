@@ -1,9 +1,11 @@
 //! What all decoders share: the file's diagnostics, and the fields of a struct by name.
 
-use subsurface_profile::TabulatedModel;
+use std::borrow::Cow;
+
+use subsurface_profile::{Quantity, TabulatedModel};
 
 use crate::diagnostics::{Diagnostic, Severity};
-use crate::schema::quantity::Quantity;
+use crate::schema::quantity::check;
 use crate::source::{Span, Spanned};
 use crate::suggestion::{closest, list, shortened};
 use crate::syntax::{Entry, Name, Node, Shape, count};
@@ -144,7 +146,7 @@ impl<'t> Decoder<'t> {
     }
 
     fn checked(&mut self, node: &Node<'_>, value: f64, quantity: &Quantity) -> Option<f64> {
-        match quantity.check(value, node.text()) {
+        match check(quantity, value, node.text()) {
             // The sum turns -0.0 into 0.0: both are written zeros, and one text must give one kernel.
             Ok(()) => Some(value + 0.0),
             Err(refusal) => {
@@ -178,19 +180,21 @@ impl<'t> Decoder<'t> {
         self.three(node, &nodes, field, quantity)
     }
 
-    /// `(c0, c1, c2, c3)`; `form` names the four in help texts.
-    pub(crate) fn quadruple(
+    /// `(c0, c1, …)`: `count` numbers, which `form` names in help texts.
+    pub(crate) fn numbers(
         &mut self,
         node: &Node<'_>,
         field: &str,
         form: &str,
         quantity: &Quantity,
-    ) -> Option<[f64; 4]> {
-        let nodes = self.numbers_of(node, field, form, ["four numbers", "in all four"], 4)?;
-        // All four are checked before the first failure counts, so that each is reported.
+        count: usize,
+    ) -> Option<Vec<f64>> {
+        let count_in_words = count_in_words(count);
+        let words = [&*format!("{count_in_words} numbers"), &*format!("in all {count_in_words}")];
+        let nodes = self.numbers_of(node, field, form, words, count)?;
+        // All are checked before the first failure counts, so that each is reported.
         let values: Vec<Option<f64>> = nodes.iter().map(|node| self.number(node, field, quantity)).collect();
-        let values: Option<Vec<f64>> = values.into_iter().collect();
-        values?.try_into().ok()
+        values.into_iter().collect()
     }
 
     /// The values of a tuple of `count` numbers, which `words` spell.
@@ -275,7 +279,7 @@ impl<'t> Decoder<'t> {
     /// Sorts the entries of a struct by the names it knows; reports unknown and repeated ones.
     pub(crate) fn fields<'a>(
         &mut self,
-        owner: &'static str,
+        owner: impl Into<Cow<'static, str>>,
         head: Span,
         entries: Vec<Entry<'a>>,
         known: &[&'static str],
@@ -286,13 +290,14 @@ impl<'t> Decoder<'t> {
     /// As [`fields`](Self::fields); `grouped` are fields that belong one level deeper, with their group.
     pub(crate) fn fields_and_groups<'a>(
         &mut self,
-        owner: &'static str,
+        owner: impl Into<Cow<'static, str>>,
         head: Span,
         entries: Vec<Entry<'a>>,
         known: &[&'static str],
         grouped: &[(&'static str, &'static str)],
     ) -> Fields<'a> {
-        let mut fields = Fields { owner, head, entries: Vec::new(), misspelt: Vec::new() };
+        let owner = owner.into();
+        let mut fields = Fields { owner: owner.clone(), head, entries: Vec::new(), misspelt: Vec::new() };
         let mut unknown = Vec::new();
         for entry in entries {
             let name = entry.key.text;
@@ -343,7 +348,7 @@ impl<'t> Decoder<'t> {
 
 /// The known fields of a struct.
 pub(crate) struct Fields<'a> {
-    pub(crate) owner: &'static str,
+    pub(crate) owner: Cow<'static, str>,
     /// The struct's name, or its opening bracket.
     pub(crate) head: Span,
     entries: Vec<Entry<'a>>,
@@ -378,10 +383,20 @@ impl<'a> Fields<'a> {
             Some(entry) => decode(decoder, &entry.value),
             None if self.misspelt.contains(&name) => None,
             None => {
-                decoder.missing(self.owner, &self.head, name, help);
+                decoder.missing(&self.owner, &self.head, name, help);
                 None
             }
         }
+    }
+}
+
+/// Small numbers as messages spell them.
+fn count_in_words(count: usize) -> String {
+    match count {
+        2 => "two".to_owned(),
+        3 => "three".to_owned(),
+        4 => "four".to_owned(),
+        _ => count.to_string(),
     }
 }
 

@@ -6,15 +6,16 @@ mod body;
 mod choice;
 mod decoder;
 mod material;
+mod model;
 mod model_error_text;
 mod profile;
 mod quality;
 mod quantity;
-mod rounded;
 mod set_file;
 
 pub(crate) use decoder::{Decoder, Given, Tables, Triple};
 pub(crate) use material::{LengthGiven, MaterialFile, SCHEMA_VERSION, decode_material};
+pub(crate) use model::length_word;
 pub(crate) use profile::{ProfileExpression, ProfileFile, decode_profile_file};
-pub(crate) use rounded::rounded;
 pub(crate) use set_file::{SET, SetFile, decode_set_file};
+pub(crate) use subsurface_profile::rounded;

@@ -1,41 +1,21 @@
-//! The numbers a file may hold: what they mean, and which values they may take.
+//! The numbers a file may hold: what those of a material mean, and which values are refused. (The models describe their
+//! own.)
 
-/// Legal values of a number.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Bounds {
-    /// Any finite number.
-    Any,
-    /// Above 0.
-    Positive,
-    /// 0 or more.
-    NonNegative,
-    /// From 0 to 1, both included.
-    Unit,
-}
-
-/// What a number measures.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Quantity {
-    /// The noun that begins a message, such as "mean free path".
-    pub(crate) noun: &'static str,
-    /// ` mm`, ` mm²` or nothing.
-    pub(crate) unit: &'static str,
-    pub(crate) bounds: Bounds,
-    /// What the number is, for a remedy.
-    pub(crate) meaning: &'static str,
-}
+use subsurface_profile::{Bounds, Quantity};
 
 pub(crate) const MEAN_FREE_PATH: Quantity = Quantity {
     noun: "mean free path",
-    unit: " mm",
+    unit: "mm",
     bounds: Bounds::Positive,
+    kind: "number",
     meaning: "give the mean distance that light travels between two collisions, 1/(σs′ + σa), in mm",
 };
 
 pub(crate) const DIFFUSE_MEAN_FREE_PATH: Quantity = Quantity {
     noun: "diffuse mean free path",
-    unit: " mm",
+    unit: "mm",
     bounds: Bounds::Positive,
+    kind: "number",
     meaning: "give the distance in which the diffuse flux falls by a factor e, 1/σtr, in mm",
 };
 
@@ -43,6 +23,7 @@ pub(crate) const SURFACE_ALBEDO: Quantity = Quantity {
     noun: "surface albedo",
     unit: "",
     bounds: Bounds::Unit,
+    kind: "number",
     meaning: "give the share of the light that the surface reflects in all, from 0 (black) to 1 (white)",
 };
 
@@ -50,6 +31,7 @@ pub(crate) const REFLECTANCE: Quantity = Quantity {
     noun: "reflectance at normal incidence",
     unit: "",
     bounds: Bounds::Unit,
+    kind: "number",
     meaning: "give F0 = ((n - 1)/(n + 1))² from 0 to 1: 0.028 for skin, 0.04 for n = 1.5",
 };
 
@@ -57,6 +39,7 @@ pub(crate) const ROUGHNESS: Quantity = Quantity {
     noun: "roughness",
     unit: "",
     bounds: Bounds::Unit,
+    kind: "number",
     meaning: "give the perceptual roughness, from 0 (mirror) to 1 (rough)",
 };
 
@@ -64,25 +47,9 @@ pub(crate) const TRANSMISSION: Quantity = Quantity {
     noun: "transmission strength",
     unit: "",
     bounds: Bounds::NonNegative,
+    kind: "number",
     meaning: "give a factor from 0 (no light comes through); 1 is the transmittance of the profile",
 };
-
-pub(crate) const VARIANCE: Quantity = Quantity {
-    noun: "Gaussian variance",
-    unit: " mm²",
-    bounds: Bounds::Positive,
-    meaning: "give the variance v of e^(-r²/2v)/(2πv) along each axis, in mm²",
-};
-
-pub(crate) const WEIGHT: Quantity = Quantity {
-    noun: "Gaussian weight",
-    unit: "",
-    bounds: Bounds::NonNegative,
-    meaning: "give this Gaussian's share of the energy, 0 or more",
-};
-
-pub(crate) const COEFFICIENT: Quantity =
-    Quantity { noun: "coefficient", unit: "", bounds: Bounds::Any, meaning: "give a finite number" };
 
 /// Why a number is refused: the message and the label.
 pub(crate) struct Refusal {
@@ -91,48 +58,41 @@ pub(crate) struct Refusal {
     pub(crate) help: String,
 }
 
-impl Quantity {
-    /// Checks `value`, written as `text`.
-    pub(crate) fn check(&self, value: f64, text: &str) -> Result<(), Refusal> {
-        let Quantity { noun, unit, meaning, .. } = self;
-        let refusal = |message: String, label: &str, help: &str| {
-            Err(Refusal { message, label: label.to_owned(), help: help.to_owned() })
-        };
-        if value.is_nan() {
-            return refusal(format!("{noun} is not a number"), "expected a number, found NaN", meaning);
-        }
-        if value.is_infinite() && text.contains("inf") {
-            return refusal(format!("{noun} is infinite"), "expected a finite number", meaning);
-        }
-        let magnitude = value.abs();
-        if magnitude > f64::from(f32::MAX) {
-            return refusal(
-                format!("{noun} {text}{unit} does not fit into a 32-bit float"),
-                "too large",
-                "the GPU computes in 32-bit floats: the largest is 3.4e38",
-            );
-        }
-        let expected = match self.bounds {
-            Bounds::Positive if value <= 0.0 => Some("expected a number above 0"),
-            Bounds::NonNegative if value < 0.0 => Some("expected 0 or more"),
-            Bounds::Unit if !(0.0..=1.0).contains(&value) => Some("expected a number from 0 to 1"),
-            _ => None,
-        };
-        if let Some(label) = expected {
-            return refusal(format!("{noun} is {text}{unit}"), label, meaning);
-        }
-        // A denormal may be flushed to 0 on the GPU (WGSL §15.7.2), and a text such as 1e-400 is 0 already.
-        let written_zero =
-            !text.split(['e', 'E']).next().unwrap_or(text).contains(|c: char| ('1'..='9').contains(&c));
-        if magnitude < f64::from(f32::MIN_POSITIVE) && !written_zero {
-            return refusal(
-                format!("{noun} {text}{unit} does not fit into a 32-bit float"),
-                "too small: it would become 0",
-                "the GPU computes in 32-bit floats: the smallest above 0 is 1.2e-38",
-            );
-        }
-        Ok(())
+/// Checks `value`, written as `text`: it is within the bounds of its quantity, and fits into a 32-bit float.
+pub(crate) fn check(quantity: &Quantity, value: f64, text: &str) -> Result<(), Refusal> {
+    let Quantity { noun, unit, meaning, .. } = quantity;
+    let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
+    let refusal = |message: String, label: &str, help: &str| {
+        Err(Refusal { message, label: label.to_owned(), help: help.to_owned() })
+    };
+    if value.is_nan() {
+        return refusal(format!("{noun} is not a number"), "expected a number, found NaN", meaning);
     }
+    if value.is_infinite() && text.contains("inf") {
+        return refusal(format!("{noun} is infinite"), "expected a finite number", meaning);
+    }
+    let magnitude = value.abs();
+    if magnitude > f64::from(f32::MAX) {
+        return refusal(
+            format!("{noun} {text}{unit} does not fit into a 32-bit float"),
+            "too large",
+            "the GPU computes in 32-bit floats: the largest is 3.4e38",
+        );
+    }
+    if !quantity.bounds.contain(value) {
+        return refusal(format!("{noun} is {text}{unit}"), &quantity.expected(), meaning);
+    }
+    // A denormal may be flushed to 0 on the GPU (WGSL §15.7.2), and a text such as 1e-400 is 0 already.
+    let written_zero =
+        !text.split(['e', 'E']).next().unwrap_or(text).contains(|c: char| ('1'..='9').contains(&c));
+    if magnitude < f64::from(f32::MIN_POSITIVE) && !written_zero {
+        return refusal(
+            format!("{noun} {text}{unit} does not fit into a 32-bit float"),
+            "too small: it would become 0",
+            "the GPU computes in 32-bit floats: the smallest above 0 is 1.2e-38",
+        );
+    }
+    Ok(())
 }
 
 #[cfg(test)]
@@ -141,17 +101,17 @@ mod tests {
 
     fn message(quantity: &Quantity, text: &str) -> Option<String> {
         let value = ron::from_str::<f64>(text).expect("a number");
-        quantity.check(value, text).err().map(|refusal| refusal.message)
+        check(quantity, value, text).err().map(|refusal| refusal.message)
     }
 
     #[test]
     fn what_a_32_bit_float_cannot_hold_is_refused() {
         for text in ["1e60", "-1e60", "1e400", "1e-60", "-1e-60", "1e-400", "1e-39"] {
-            let message = message(&COEFFICIENT, text).expect("refused");
+            let message = message(&Quantity::COEFFICIENT, text).expect("refused");
             assert!(message.contains("does not fit into a 32-bit float"), "{text}: {message}");
         }
         for text in ["0", "0.0", "-0.0", "0e5", "3.4e38", "1.2e-38", "1"] {
-            assert_eq!(message(&COEFFICIENT, text), None, "{text}");
+            assert_eq!(message(&Quantity::COEFFICIENT, text), None, "{text}");
         }
     }
 

@@ -1,79 +1,65 @@
 //! The families of models that can be fitted, and where their fits start.
 
-use crate::{
-    BurleyModel, ExponentialDipoleModel, GaussianSumModel, GaussianTerm, Model, PolynomialModel, RadialData,
-    TwoExponentialDipoleModel,
-};
+use crate::description::Notation;
+use crate::{Model, ModelKind, RadialData};
 
 /// A family of models, with its start.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Family {
-    /// Burley's normalised diffusion, from \[CB15\] eq. (5).
-    Burley,
-    /// The rational profile of Liang et al., from the paper's corrected coefficients.
-    Polynomial,
-    /// A sum of so many Gaussians; 0 counts as 1.
-    GaussianSum {
-        /// Number of Gaussians.
-        terms: usize,
-    },
-    /// An exponential plus a dipole, from the coefficients for searchlight entry.
-    ExponentialDipole,
-    /// Two exponentials plus a dipole of two sources, from the coefficients for searchlight entry.
-    TwoExponentialDipole,
+pub struct Family {
+    kind: ModelKind,
+    terms: usize,
 }
 
 impl Family {
-    /// Gaussians that [`from_name`](Self::from_name) takes.
-    pub const GAUSSIANS: usize = 4;
+    /// Terms that a model of terms gets where nobody says how many.
+    pub const TERMS: usize = 4;
 
-    /// Names that [`from_name`](Self::from_name) knows.
-    pub const NAMES: [&'static str; 5] =
-        ["burley", "polynomial", "gaussian_sum", "exponential_dipole", "two_exponential_dipole"];
+    /// All families.
+    pub fn all() -> impl Iterator<Item = Family> {
+        ModelKind::ALL.iter().filter_map(|kind| Family::of(*kind))
+    }
 
-    /// A family by its name, one of [`NAMES`](Self::NAMES).
+    /// The family of a model; `None` for a model that has nothing to fit.
+    pub fn of(kind: ModelKind) -> Option<Family> {
+        kind.start(&[], Self::TERMS).map(|_| Family { kind, terms: Self::TERMS })
+    }
+
+    /// A family by its name, that of the model: `gaussian_sum`.
     pub fn from_name(name: &str) -> Option<Family> {
-        Some(match name {
-            "burley" => Family::Burley,
-            "polynomial" => Family::Polynomial,
-            "gaussian_sum" => Family::GaussianSum { terms: Self::GAUSSIANS },
-            "exponential_dipole" => Family::ExponentialDipole,
-            "two_exponential_dipole" => Family::TwoExponentialDipole,
-            _ => return None,
-        })
+        ModelKind::of_stem(name).and_then(Self::of)
+    }
+
+    /// The same with another number of terms, at least 1; `None` for a model that is not one of terms.
+    pub fn with_terms(self, terms: usize) -> Option<Family> {
+        self.has_terms().then_some(Family { terms: terms.max(1), ..self })
+    }
+
+    /// Which model it is.
+    pub fn kind(self) -> ModelKind {
+        self.kind
+    }
+
+    /// Its name: that of the model.
+    pub fn name(self) -> &'static str {
+        self.kind.description().stem
+    }
+
+    /// What a legend calls it.
+    pub fn label(self) -> String {
+        match (self.kind.description().notation, self.terms) {
+            (Notation::Terms { term, .. }, 1) => format!("a {term}"),
+            (Notation::Terms { term, .. }, terms) => format!("{terms} {term}s"),
+            _ => self.name().replace('_', " "),
+        }
+    }
+
+    /// Whether members have a number of terms that one may choose.
+    pub fn has_terms(self) -> bool {
+        matches!(self.kind.description().notation, Notation::Terms { .. })
     }
 
     /// Where a fit of this family to `data` starts.
-    pub fn start(&self, data: &[RadialData]) -> Model {
-        match *self {
-            Family::Burley => Model::Burley(BurleyModel::SEARCHLIGHT),
-            Family::Polynomial => Model::Polynomial(PolynomialModel::LIANG_2023),
-            Family::GaussianSum { terms } => Model::GaussianSum(spread_gaussians(terms.max(1), data)),
-            Family::ExponentialDipole => Model::ExponentialDipole(ExponentialDipoleModel::SEARCHLIGHT),
-            Family::TwoExponentialDipole => {
-                Model::TwoExponentialDipole(TwoExponentialDipoleModel::SEARCHLIGHT)
-            }
-        }
+    pub fn start(self, data: &[RadialData]) -> Model {
+        self.kind.start(data, self.terms).unwrap_or_else(|| unreachable!("{self:?} has a start"))
     }
-}
-
-/// Gaussians of equal weight, whose medians are evenly spaced in the logarithm of the radius between the 5 % and
-/// the 98 % quantiles of the data.
-fn spread_gaussians(terms: usize, data: &[RadialData]) -> GaussianSumModel {
-    let end = |quantile: f64, fallback: f64| {
-        let radii: Vec<f64> = data.iter().map(|data| data.quantile(quantile)).filter(|r| *r > 0.0).collect();
-        let log_mean = radii.iter().map(|r| r.ln()).sum::<f64>() / radii.len() as f64;
-        if radii.is_empty() { fallback } else { log_mean.exp() }
-    };
-    let (near, far) = (end(0.05, 0.05), end(0.98, 5.0));
-    let gaussian = |term: usize| {
-        let median = near * (far / near).powf((term as f64 + 0.5) / terms as f64);
-        // The cdf 1 - e^(-r²/2v) is ½ at r² = 2v ln 2.
-        GaussianTerm {
-            variance_mm2: median * median / (2.0 * std::f64::consts::LN_2),
-            weight: [1.0 / terms as f64; 3],
-        }
-    };
-    GaussianSumModel { terms: (0..terms).map(gaussian).collect() }
 }

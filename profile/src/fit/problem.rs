@@ -168,9 +168,10 @@ pub(super) fn solve(
     {
         stop = Stop::Bound { coefficient: free[bound].name.clone() };
     }
-    let model = problem.model(&problem.x).ok_or(FitError::NoCoefficients)?;
+    let mut model = problem.model(&problem.x).ok_or(FitError::NoCoefficients)?;
+    model.normalise();
     Ok(Solution {
-        model: normalised(model),
+        model,
         cost_at_start,
         cost: reached,
         evaluations: report.number_of_evaluations,
@@ -188,17 +189,4 @@ fn is_bounded(problem: &Problem<'_>, index: usize, here: f64) -> bool {
         (None, None) => true,
         (Some(_), Some(_)) => false,
     }
-}
-
-/// Only ratios of the weights of a Gaussian sum matter: here they sum to 1, as papers print them.
-fn normalised(mut model: Model) -> Model {
-    if let Model::GaussianSum(gaussians) = &mut model {
-        let sum: f64 = gaussians.terms.iter().map(|term| term.weight[0]).sum();
-        if sum.is_finite() && sum > 0.0 {
-            for term in &mut gaussians.terms {
-                term.weight = term.weight.map(|weight| weight / sum);
-            }
-        }
-    }
-    model
 }

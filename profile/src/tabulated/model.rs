@@ -5,8 +5,9 @@ use std::sync::Arc;
 
 use thiserror::Error;
 
+use crate::description::{Contents, Description, Notation, ProfileModel, Published, Variable};
 use crate::radial_data::CLOSEST;
-use crate::{Length, Medium, ModelError, RadialData, RadialRow};
+use crate::{Channel, Length, Medium, ModelError, RadialData, RadialProfile, RadialRow};
 
 use super::TabulatedProfile;
 use super::hermite::{Piece, knot_densities};
@@ -207,6 +208,35 @@ impl TabulatedModel {
             return (lower, upper, 0.0);
         }
         (lower, upper, ((surface_albedo - lower.surface_albedo) / span).clamp(0.0, 1.0))
+    }
+}
+
+impl ProfileModel for TabulatedModel {
+    const DESCRIPTION: Description = Description {
+        name: "Tabulated",
+        stem: "tabulated",
+        caption: "table",
+        equation: "any profile, as a table by surface albedo and radius",
+        notes: "The path is relative to the file that names it.",
+        source: "a table of your own",
+        notation: Notation::Table,
+        example: "Tabulated(file: \"my_table.csv\")",
+        lengths: &[Self::LENGTH],
+        variable: Variable::SURFACE_ALBEDO,
+    };
+
+    const PUBLISHED: &'static [Published<Self>] = &[];
+
+    fn boxed_profile(&self, medium: Medium, _channel: Channel) -> Result<Box<dyn RadialProfile>, ModelError> {
+        Ok(Box::new(self.profile(medium)?))
+    }
+
+    fn energy(&self, surface_albedo: f64) -> Option<Result<f64, ModelError>> {
+        Some(Ok(self.energy_before_normalization(surface_albedo)))
+    }
+
+    fn contents(&self) -> Contents<'_> {
+        Contents::Table(self)
     }
 }
 

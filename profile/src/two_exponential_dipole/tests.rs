@@ -1,5 +1,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
+use std::f64::consts::PI;
+
 use super::*;
 
 const ALL: [TwoExponentialDipoleModel; 4] = [
@@ -155,39 +157,45 @@ fn each_part_alone_is_a_profile() {
 #[test]
 fn what_is_no_profile_says_why() {
     let good = TwoExponentialDipoleModel::SEARCHLIGHT;
-    let fail = |model: TwoExponentialDipoleModel| model.profile(Medium::new(0.5, 1.0).unwrap()).unwrap_err();
+    let fail = |model: TwoExponentialDipoleModel| {
+        let error = model.profile(Medium::new(0.5, 1.0).unwrap()).unwrap_err();
+        [error.coefficient(), error.to_string(), error.expected()]
+    };
     let at = |value: f64| [value, 0.0, 0.0, 0.0];
-    let surface_albedo = 0.5;
-    assert_eq!(
-        fail(TwoExponentialDipoleModel { exponential_weight: at(1.25), ..good }),
-        ModelError::ExponentialWeightOutOfRange { surface_albedo, weight: 1.25 }
-    );
-    assert_eq!(
-        fail(TwoExponentialDipoleModel { exponential_length: at(0.0), ..good }),
-        ModelError::ExponentialLengthNotPositive { surface_albedo, length: 0.0 }
-    );
-    assert_eq!(
-        fail(TwoExponentialDipoleModel { dipole_depth: at(-2.0), ..good }),
-        ModelError::DipoleDepthNotPositive { surface_albedo, depth: -2.0 }
-    );
-    assert_eq!(
-        fail(TwoExponentialDipoleModel { dipole_attenuation: at(-1.0), ..good }),
-        ModelError::NegativeDipoleAttenuation { surface_albedo, attenuation: -0.5 }
-    );
-    assert_eq!(
-        fail(TwoExponentialDipoleModel { short_weight: 1.5, ..good }),
-        ModelError::ShareOutOfRange { coefficient: "short_weight", value: 1.5 }
-    );
-    assert_eq!(
-        fail(TwoExponentialDipoleModel { second_depth: 0.0, ..good }),
-        ModelError::RatioNotPositive { coefficient: "second_depth", value: 0.0 }
-    );
-    assert_eq!(
-        fail(TwoExponentialDipoleModel { short_length: f64::NAN, ..good }),
-        ModelError::NotFinite { coefficient: "short_length".to_owned() }
-    );
-    assert_eq!(
-        fail(TwoExponentialDipoleModel { short_length: 1e-300, exponential_length: at(1e-300), ..good }),
-        ModelError::OutOfNumericRange { quantity: "b d", surface_albedo }
-    );
+    for (model, expected) in [
+        (
+            TwoExponentialDipoleModel { exponential_weight: at(1.25), ..good },
+            [
+                "exponential_weight",
+                "the exponential's weight is 1.25 at surface albedo 0.5",
+                "w(A) must be from 0 to 1",
+            ],
+        ),
+        (
+            TwoExponentialDipoleModel { dipole_attenuation: at(-1.0), ..good },
+            [
+                "dipole_attenuation",
+                "the dipole's attenuation is -0.5 at surface albedo 0.5",
+                "s(A) must be 0 or more",
+            ],
+        ),
+        (
+            TwoExponentialDipoleModel { short_weight: 1.5, ..good },
+            ["short_weight", "`short_weight` is 1.5", "expected a share from 0 to 1"],
+        ),
+        (
+            TwoExponentialDipoleModel { second_depth: 0.0, ..good },
+            ["second_depth", "`second_depth` is 0", "expected a ratio above 0"],
+        ),
+        (
+            TwoExponentialDipoleModel { short_length: f64::NAN, ..good },
+            ["short_length", "coefficient `short_length` is not a finite number", "not a finite number"],
+        ),
+        (
+            TwoExponentialDipoleModel { short_length: 1e-300, exponential_length: at(1e-300), ..good },
+            ["", "`b d` is out of the range of numbers at surface albedo 0.5", "this model has no profile"],
+        ),
+    ] {
+        assert_eq!(fail(model), expected);
+    }
 }

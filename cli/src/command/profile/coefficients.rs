@@ -12,8 +12,7 @@ use clap::Args;
 use std::fmt::Write as _;
 use std::path::PathBuf;
 use subsurface_profile::fit::fit;
-use subsurface_profile::single_scattering_albedo::{Entry, from_surface_albedo};
-use subsurface_profile::{Length, Model, RadialData};
+use subsurface_profile::{FunctionOfAlbedo, Length, Model, ModelKind, RadialData};
 
 /// Arguments of `profile coefficients`.
 #[derive(Debug, Args)]
@@ -43,133 +42,63 @@ pub struct CoefficientsArguments {
     pub out: Option<FigureFile>,
 }
 
-/// What a model makes of the surface albedo.
-struct Functions {
-    names: &'static [&'static str],
-    /// Their axes.
-    labels: &'static [&'static str],
-    /// The functions' argument: α for the polynomial, A for the others.
-    argument: fn(f64) -> f64,
-    argument_label: &'static str,
-    values: fn(&Model, f64) -> Vec<f64>,
-}
-
 /// Runs the command.
 pub(super) fn run(arguments: &CoefficientsArguments) -> Result<(), Failure> {
     if let Some(out) = &arguments.out {
         file::folder_of(out.path())?;
     }
     let model = model::load(&arguments.model, &arguments.materials)?;
-    let functions = functions(&model).ok_or_else(|| {
-        Failure::new(
+    if model.kind().functions().is_empty() {
+        let with = ModelKind::ALL.iter().filter(|kind| !kind.functions().is_empty());
+        let captions: Vec<&str> = with.map(|kind| kind.description().caption).collect();
+        return Err(Failure::new(
             format!("`{}` has no functions of the surface albedo", arguments.model),
-            "choose a Burley, polynomial or exponential + dipole profile",
-        )
-    })?;
+            format!("choose a profile of one of these models: {}", captions.join(", ")),
+        ));
+    }
     let own = || TruthName::Stored(Setting::of_model(&arguments.model));
     let truth = Truth::load(&arguments.truth.clone().unwrap_or_else(own))?;
     let data = chosen(&truth, &arguments.surface_albedos, arguments.how)?;
     let mut best = Vec::new();
     for table in &data {
-        best.push(best_values(&model, table, &truth, &functions, arguments.how)?);
+        best.push(best_values(&model, table, &truth, arguments.how)?);
     }
-    output::print(&csv(&functions, &model, &truth, &data, &best))?;
+    output::print(&csv(&model, &truth, &data, &best))?;
     if let Some(out) = &arguments.out {
-        out.write(&figure(arguments, &truth, &functions, &model, &data, &best))?;
+        out.write(&figure(arguments, &truth, &model, &data, &best))?;
     }
     Ok(())
 }
 
-fn functions(model: &Model) -> Option<Functions> {
-    let same = |surface_albedo| surface_albedo;
-    Some(match model {
-        Model::Burley(_) => Functions {
-            names: &["s"],
-            labels: &["s"],
-            argument: same,
-            argument_label: "surface albedo A",
-            values: |model, surface_albedo| match model {
-                Model::Burley(model) => vec![model.shape.at(surface_albedo)],
-                _ => Vec::new(),
-            },
-        },
-        Model::Polynomial(_) => Functions {
-            names: &["a", "b", "c"],
-            labels: &["a (1/mean free path)", "b", "c (mean free paths)"],
-            argument: |surface_albedo| from_surface_albedo(Entry::Searchlight, surface_albedo),
-            argument_label: "single-scattering albedo α",
-            values: |model, surface_albedo| {
-                let alpha = from_surface_albedo(Entry::Searchlight, surface_albedo);
-                match model {
-                    Model::Polynomial(model) => {
-                        vec![model.a.at(alpha), model.b.at(alpha), model.c.at(alpha)]
-                    }
-                    _ => Vec::new(),
-                }
-            },
-        },
-        Model::ExponentialDipole(_) => Functions {
-            names: &["w", "d", "z", "s/(1 − A)"],
-            labels: &["w", "d (mean free paths)", "z (mean free paths)", "s/(1 − A) (1/mean free path)"],
-            argument: same,
-            argument_label: "surface albedo A",
-            values: |model, surface_albedo| {
-                let Model::ExponentialDipole(model) = model else { return Vec::new() };
-                let lists = [
-                    model.exponential_weight,
-                    model.exponential_length,
-                    model.dipole_depth,
-                    model.dipole_attenuation,
-                ];
-                lists
-                    .map(|list| list.iter().rev().fold(0.0, |sum, term| sum * surface_albedo + term))
-                    .to_vec()
-            },
-        },
-        _ => return None,
-    })
-}
-
 /// The values that fit one table best.
-fn best_values(
-    model: &Model,
-    table: &RadialData,
-    truth: &Truth,
-    functions: &Functions,
-    how: HowToFit,
-) -> Result<Vec<f64>, Failure> {
+fn best_values(model: &Model, table: &RadialData, truth: &Truth, how: HowToFit) -> Result<Vec<f64>, Failure> {
     let surface_albedo = table.surface_albedo();
     let fitted =
         fit(model, std::slice::from_ref(table), &how.options()).map_err(|error| failure(&error, truth))?;
-    let mut values = (functions.values)(&fitted.model, surface_albedo);
-    if let Model::Polynomial(polynomial) = &fitted.model {
-        // The profile is divided by its integral, so that a factor of a and b is free. Here it is chosen so that
-        // Liang et al.'s eq. (17) gives 1 at r_max.
-        let energy = polynomial.energy_before_normalization(surface_albedo).map_err(|error| {
+    // A profile that is divided by its own integral leaves a factor free. Here it is chosen so that the integral is 1.
+    let energy =
+        fitted.model.energy_before_normalization(surface_albedo).unwrap_or(Ok(1.0)).map_err(|error| {
             Failure::new(
-                format!("no polynomial fits at surface albedo {surface_albedo}: {error}"),
+                format!("no such model fits at surface albedo {surface_albedo}: {error}"),
                 "leave it out",
             )
         })?;
-        values[..2].iter_mut().for_each(|value| *value /= energy);
-    }
-    if model.length() == Length::DiffuseMeanFreePath {
-        // The fit counts the table's mean free paths; Burley's s is the length over d.
-        let length = diffuse_mean_free_path(truth.medium_at(surface_albedo));
-        values.iter_mut().for_each(|value| *value *= length);
-    }
-    Ok(values)
+    // The fit counts the table's mean free paths.
+    let length = match model.length() {
+        Length::MeanFreePath => 1.0,
+        Length::DiffuseMeanFreePath => diffuse_mean_free_path(truth.medium_at(surface_albedo)),
+    };
+    let values = fitted.model.functions_at(surface_albedo).into_iter().zip(model.kind().functions());
+    let value = |(value, function): (f64, FunctionOfAlbedo)| {
+        let value = if function.is_scaled_by_energy { value / energy } else { value };
+        value * length.powi(function.length_power)
+    };
+    Ok(values.map(value).collect())
 }
 
-fn csv(
-    functions: &Functions,
-    model: &Model,
-    truth: &Truth,
-    data: &[RadialData],
-    best: &[Vec<f64>],
-) -> String {
+fn csv(model: &Model, truth: &Truth, data: &[RadialData], best: &[Vec<f64>]) -> String {
     let mut text = String::from("surface_albedo,single_scattering_albedo");
-    for name in functions.names {
+    for FunctionOfAlbedo { symbol: name, .. } in model.kind().functions() {
         let name = name.split('/').next().unwrap_or(name);
         let _ = write!(text, ",{name}_best,{name}_model");
     }
@@ -177,7 +106,7 @@ fn csv(
     for (table, best) in data.iter().zip(best) {
         let surface_albedo = table.surface_albedo();
         let _ = write!(text, "{surface_albedo},{:.6}", truth.medium_at(surface_albedo));
-        for (best, model) in best.iter().zip((functions.values)(model, surface_albedo)) {
+        for (best, model) in best.iter().zip(model.functions_at(surface_albedo)) {
             let _ = write!(text, ",{best:.6},{model:.6}");
         }
         text.push('\n');
@@ -188,7 +117,6 @@ fn csv(
 fn figure(
     arguments: &CoefficientsArguments,
     truth: &Truth,
-    functions: &Functions,
     model: &Model,
     data: &[RadialData],
     best: &[Vec<f64>],
@@ -197,25 +125,24 @@ fn figure(
     const STEPS: u32 = 200;
     let surface_albedos: Vec<f64> =
         (1..=STEPS).map(|step| f64::from(step) / f64::from(STEPS)).filter(|a| *a < 1.0).collect();
-    let panel = |(index, name): (usize, &&str)| {
-        let line =
-            surface_albedos.iter().map(|a| ((functions.argument)(*a), (functions.values)(model, *a)[index]));
-        let dots = data
-            .iter()
-            .zip(best)
-            .map(|(table, best)| ((functions.argument)(table.surface_albedo()), best[index]));
+    let functions = model.kind().functions();
+    let argument = model.kind().argument();
+    let panel = |(index, function): (usize, &FunctionOfAlbedo)| {
+        let line = surface_albedos.iter().map(|a| ((argument.at)(*a), model.functions_at(*a)[index]));
+        let dots =
+            data.iter().zip(best).map(|(table, best)| ((argument.at)(table.surface_albedo()), best[index]));
         let (line, dots): (Vec<_>, Vec<_>) = (line.collect(), dots.collect());
         let values = || line.iter().chain(&dots).map(|point: &(f64, f64)| point.1);
         let (low, high) = (values().fold(0.0, f64::min), values().fold(0.0, f64::max));
-        let y = Axis::linear(functions.labels[index], 0.0, high - low).with_round_end();
+        let y = Axis::linear(function.label, 0.0, high - low).with_round_end();
         let y = Axis {
             low: if low < 0.0 { -y.high } else { 0.0 },
             high: if high > 0.0 { y.high } else { 0.0 },
             ..y
         };
         Panel {
-            title: if functions.names.len() > 1 { (*name).to_owned() } else { String::new() },
-            x: Axis::linear(functions.argument_label, 0.0, 1.0),
+            title: if functions.len() > 1 { function.symbol.to_owned() } else { String::new() },
+            x: Axis::linear(argument.label, 0.0, 1.0),
             y,
             series: vec![
                 Series {
@@ -235,6 +162,6 @@ fn figure(
     };
     Figure {
         title: format!("Coefficients of {}, {}", arguments.model, truth.describe()),
-        panels: functions.names.iter().enumerate().map(panel).collect(),
+        panels: functions.iter().enumerate().map(panel).collect(),
     }
 }

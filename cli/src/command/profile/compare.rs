@@ -9,7 +9,7 @@ use crate::table::{Align, Table};
 use clap::Args;
 use std::fmt::Write as _;
 use std::path::PathBuf;
-use subsurface_profile::{Deviation, Model, TwoExponentialDipoleModel};
+use subsurface_profile::{Deviation, Model};
 
 /// Arguments of `profile compare`.
 #[derive(Debug, Args)]
@@ -21,8 +21,8 @@ Examples:
   subsurface profile compare --summary")]
 pub struct CompareArguments {
     /// A model: the stem of a file in DIR/profiles, the name of a built-in profile, or a profile file (.ron). May be
-    /// given several times; by default all of DIR/profiles and all built-in ones, but no Gaussian sums, whose lengths
-    /// are those of one material.
+    /// given several times; by default all of DIR/profiles and all built-in ones, but those whose
+    /// lengths are those of one material, such as Gaussian sums.
     #[arg(long = "model", value_name = "STEM|FILE.ron")]
     pub models: Vec<String>,
     /// Surface albedos A of the truth; by default all.
@@ -95,7 +95,7 @@ fn models(arguments: &CompareArguments) -> Result<Vec<(String, Model)>, Failure>
     let mut models = Vec::new();
     for name in names {
         let model = model::load(&name, &arguments.materials)?;
-        if !given.is_empty() || !matches!(model, Model::GaussianSum(_)) {
+        if !given.is_empty() || model.dependence().on_length() {
             models.push((name, model));
         }
     }
@@ -109,12 +109,10 @@ fn scores(arguments: &CompareArguments, name: String, model: &Model) -> Result<S
         [] => truth.surface_albedos(),
         given => given.to_vec(),
     };
-    let is_two = matches!(model, Model::TwoExponentialDipole(_));
-    let fitted = match &arguments.fitted[..] {
-        [] if is_two && Model::published(&name).as_ref() == Some(model) => {
-            &TwoExponentialDipoleModel::FITTED_SURFACE_ALBEDOS[..]
-        }
-        given => given,
+    let set = Model::published_set(&name).filter(|set| set.model == *model);
+    let fitted = match (&arguments.fitted[..], &set) {
+        ([], Some(set)) => set.fitted_surface_albedos,
+        (given, _) => given,
     };
     let mut scores = Vec::new();
     for surface_albedo in surface_albedos {
@@ -124,19 +122,10 @@ fn scores(arguments: &CompareArguments, name: String, model: &Model) -> Result<S
             is_fitted: fitted.iter().any(|fitted| (fitted - surface_albedo).abs() < 1e-9),
             deviation: Deviation::of(&*profile, truth.table(surface_albedo)?),
             r_max: profile.max_radius(),
-            cdf_at_r_max: cdf_at_r_max(model, surface_albedo),
+            cdf_at_r_max: model.energy_before_normalization(surface_albedo).and_then(Result::ok),
         });
     }
     Ok(Scores { name, truth: truth.name, scores })
-}
-
-/// What the model holds before it is normalised, for models that are.
-fn cdf_at_r_max(model: &Model, surface_albedo: f64) -> Option<f64> {
-    match model {
-        Model::Polynomial(model) => model.energy_before_normalization(surface_albedo).ok(),
-        Model::Tabulated(model) => Some(model.energy_before_normalization(surface_albedo)),
-        _ => None,
-    }
 }
 
 fn percent(share: f64) -> String {

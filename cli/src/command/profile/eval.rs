@@ -17,11 +17,11 @@ pub struct ProfileOf {
     /// Surface albedo A, the total diffuse reflectance, in [0, 1].
     #[arg(long, value_name = "A", value_parser = number::surface_albedo, allow_hyphen_values = true)]
     pub surface_albedo: f64,
-    /// Mean free path 1/σt in mm, above 0; the diffuse mean free path 1/σtr for models parametrized by it. Gaussian
-    /// sums carry their own lengths.
+    /// Mean free path 1/σt in mm, above 0; the diffuse mean free path 1/σtr for models parametrized by it. Models
+    /// with lengths of their own, such as Gaussian sums, do not use it.
     #[arg(long, value_name = "L", value_parser = number::length_mm, allow_hyphen_values = true)]
     pub mean_free_path_mm: f64,
-    /// Colour channel; only models with coefficients per channel (Gaussian sums) differ.
+    /// Colour channel; only models with coefficients per channel, such as Gaussian sums, differ.
     #[arg(long, value_enum, default_value_t)]
     pub channel: ChannelName,
     /// Directory of materials whose profiles STEM may name.

@@ -1,13 +1,14 @@
 //! `subsurface profile fit`.
 
+use super::model;
 use super::truth::{Truth, TruthName};
-use super::{model, ron};
 use crate::command::{material_set, number, output};
 use crate::failure::Failure;
 use crate::table::{Align, Table};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 use std::str::FromStr;
+use subsurface_codegen::profile_file_text;
 use subsurface_profile::RadialData;
 use subsurface_profile::fit::{Criterion, Crop, Family, Fit, FitError, Measure, Options, Weighting, fit};
 
@@ -23,9 +24,8 @@ pub struct FitArguments {
     /// The data: a CSV file, or a stored truth (searchlight, diffuse, searchlight-eta-1.4, diffuse-eta-1.4).
     #[arg(long, value_name = "FILE.csv|NAME")]
     pub data: TruthName,
-    /// The family of models: burley, polynomial, gaussian-sum or gaussian-sum:N (N Gaussians), exponential-dipole,
-    /// two-exponential-dipole.
-    #[arg(long, value_name = "FAMILY")]
+    /// The family of models.
+    #[arg(long, value_name = "FAMILY", help = format!("The family of models: {}", FamilyName::forms()))]
     pub family: FamilyName,
     #[command(flatten)]
     pub how: HowToFit,
@@ -123,35 +123,36 @@ impl FamilyName {
 
     /// Its name in a legend.
     pub(super) fn label(self) -> String {
-        match self.0 {
-            Family::GaussianSum { terms: 1 } => "a Gaussian".into(),
-            Family::GaussianSum { terms } => format!("{terms} Gaussians"),
-            family => known_names()
-                .find(|(_, other)| *other == family)
-                .map_or_else(String::new, |(name, _)| name.replace('_', " ")),
-        }
+        self.0.label()
     }
-}
 
-fn known_names() -> impl Iterator<Item = (&'static str, Family)> {
-    Family::NAMES.iter().filter_map(|name| Some((*name, Family::from_name(name)?)))
+    /// What it may be, in words.
+    pub(super) fn forms() -> String {
+        let forms = Family::all().map(|family| {
+            let name = family.name().replace('_', "-");
+            if family.has_terms() { format!("{name} or {name}:N (of N terms)") } else { name }
+        });
+        forms.collect::<Vec<_>>().join(", ")
+    }
 }
 
 impl FromStr for FamilyName {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        /// More Gaussians than any table tells apart.
-        const MOST_GAUSSIANS: usize = 16;
-        if let Some(terms) = text.strip_prefix("gaussian-sum:").or(text.strip_prefix("gaussian_sum:")) {
-            let terms = terms.parse().ok().filter(|terms| (1..=MOST_GAUSSIANS).contains(terms));
-            let terms = terms.ok_or(format!("a sum has 1 to {MOST_GAUSSIANS} Gaussians"))?;
-            return Ok(Self(Family::GaussianSum { terms }));
-        }
+        /// More terms than any table tells apart.
+        const MOST_TERMS: usize = 16;
+        let (name, terms) = text.split_once(':').map_or((text, None), |(name, terms)| (name, Some(terms)));
         // Stems are written with underscores, and so may families be.
-        let family = Family::from_name(&text.replace('-', "_"));
-        let names = || Family::NAMES.iter().map(|name| name.replace('_', "-")).collect::<Vec<_>>().join(", ");
-        family.map(Self).ok_or_else(|| format!("the families are {}", names()))
+        let family = Family::from_name(&name.replace('-', "_"));
+        let family = family.ok_or_else(|| format!("the families are {}", Self::forms()))?;
+        let Some(terms) = terms else { return Ok(Self(family)) };
+        if !family.has_terms() {
+            return Err(format!("`{name}` has no number of terms to choose"));
+        }
+        let terms = terms.parse().ok().filter(|terms| (1..=MOST_TERMS).contains(terms));
+        let family = terms.and_then(|terms| family.with_terms(terms));
+        family.map(Self).ok_or(format!("`{name}` has 1 to {MOST_TERMS} terms"))
     }
 }
 
@@ -167,7 +168,12 @@ pub(super) fn run(arguments: &FitArguments) -> Result<(), Failure> {
     let errors = errors(&fitted);
     let mut docs = vec![format!("Fitted to {}: {}.", truth.describe(), fitted.stop), String::new()];
     docs.extend(errors.lines().map(|line| format!("    {line}")));
-    let text = ron::profile_file(&fitted.model, &docs)?;
+    let text = profile_file_text(&fitted.model, &docs).ok_or_else(|| {
+        Failure::new(
+            format!("a {} is not written as coefficients", fitted.model.description().caption),
+            "choose another family",
+        )
+    })?;
     match &arguments.out {
         Some(path) => {
             output::write(path, &text)?;
@@ -204,7 +210,7 @@ fn start(arguments: &FitArguments, data: &[RadialData]) -> Result<subsurface_pro
     let usual = arguments.family.family().start(data);
     let Some(name) = &arguments.start else { return Ok(usual) };
     let model = model::load(name, &arguments.materials)?;
-    if std::mem::discriminant(&model) == std::mem::discriminant(&usual) {
+    if model.kind() == usual.kind() {
         return Ok(model);
     }
     Err(Failure::new(

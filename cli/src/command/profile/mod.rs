@@ -8,7 +8,6 @@ mod fit;
 mod model;
 mod plot;
 mod quantity;
-mod ron;
 mod theory;
 mod truth;
 
