@@ -169,6 +169,11 @@ impl<M> Coefficient<M> {
         Coefficient { field: Field { order: Some(order), ..self.field }, ..self }
     }
 
+    /// A fit leaves it as it is.
+    pub(crate) const fn never_fitted(self) -> Self {
+        Coefficient { field: Field { order: None, ..self.field }, ..self }
+    }
+
     pub(crate) const fn member(self, member: &'static str) -> Self {
         Coefficient { field: Field { member, ..self.field }, ..self }
     }

@@ -2,7 +2,7 @@
 
 use crate::description::{Argument, Contents, Dependence, Description, Field, ProfileModel, Slot};
 use crate::{
-    BurleyModel, Channel, ExponentialDipoleModel, GaussianSumModel, Length, Medium, ModelError,
+    BurleyModel, Channel, DipoleModel, ExponentialDipoleModel, GaussianSumModel, Length, Medium, ModelError,
     PolynomialModel, RadialData, RadialProfile, TabulatedModel, TwoExponentialDipoleModel,
 };
 
@@ -91,6 +91,8 @@ models! { $
     ExponentialDipole(ExponentialDipoleModel),
     /// Two exponentials plus a dipole of two sources.
     TwoExponentialDipole(TwoExponentialDipoleModel),
+    /// The dipole of diffusion theory.
+    Dipole(DipoleModel),
     /// Tables by surface albedo.
     Tabulated(TabulatedModel),
 }

@@ -31,6 +31,11 @@ impl Requirement {
         }
     }
 
+    /// The error of a value that breaks the requirement whatever the surface albedo.
+    pub(crate) const fn broken_by(&'static self, value: f64) -> ModelError {
+        ModelError::Broken { requirement: self, value: Some(value), channel: None, surface_albedo: None }
+    }
+
     /// The error of coefficients that break the requirement whatever the surface albedo.
     pub(crate) const fn broken(&'static self, channel: Option<Channel>) -> ModelError {
         ModelError::Broken { requirement: self, value: None, channel, surface_albedo: None }

@@ -58,6 +58,7 @@ pub const LIBRARY: &[Module] = modules![
 /// length that a material set needs.
 pub const PROFILES: &[Module] = modules![
     "profiles/burley",
+    "profiles/dipole",
     "profiles/exponential_dipole",
     "profiles/gaussian_sum",
     "profiles/polynomial",

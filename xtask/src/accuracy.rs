@@ -95,7 +95,7 @@ fn generate(prose: &str) -> Result<Vec<Written>, Failure> {
 }
 
 /// Runs the command line; what it prints.
-fn subsurface(arguments: &str) -> Result<String, Failure> {
+pub(crate) fn subsurface(arguments: &str) -> Result<String, Failure> {
     let name = format!("subsurface{}", std::env::consts::EXE_SUFFIX);
     let program = shell::target().join("debug").join(name);
     let output = Command::new(&program)
@@ -171,7 +171,7 @@ fn check(files: &[Written]) -> Result<(), Failure> {
     )))
 }
 
-fn read(path: &Path) -> Result<String, Failure> {
+pub(crate) fn read(path: &Path) -> Result<String, Failure> {
     std::fs::read_to_string(path).map_err(|error| Failure(format!("cannot read {}: {error}", path.display())))
 }
 

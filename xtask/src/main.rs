@@ -1,4 +1,4 @@
-//! The commands of the README: `cargo xtask demo`, `test`, `ci`, `bless` and `accuracy`.
+//! The commands of the README: `cargo xtask demo`, `test`, `ci`, `bless`, `accuracy` and `tables`.
 
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "a command line speaks to its user")]
 
@@ -6,6 +6,7 @@ mod accuracy;
 mod driver;
 mod gate;
 mod shell;
+mod tables;
 mod tool;
 mod toolchain;
 
@@ -30,6 +31,9 @@ Commands:
   accuracy [--check]
           Write docs/accuracy.md and its figures by running the commands that stand in xtask/accuracy.md; with
           --check, write nothing and fail where the files in docs differ from what the commands give
+  tables [--check]
+          Write the tables of README.md and materials/README.md that commands print; with --check, write nothing and
+          fail where they differ
 
 Examples:
   cargo xtask demo
@@ -49,6 +53,7 @@ fn main() -> ExitCode {
         Some("ci") => gate::run_command(&rest),
         Some("bless") => bless(&rest),
         Some("accuracy") => accuracy::run_command(&rest),
+        Some("tables") => tables::run_command(&rest),
         Some("help" | "--help" | "-h") => {
             print!("{HELP}");
             Ok(())

@@ -216,7 +216,7 @@ impl ProfileModel for TabulatedModel {
         name: "Tabulated",
         stem: "tabulated",
         caption: "table",
-        equation: "any profile, as a table by surface albedo and radius",
+        equation: "Any profile, as a table by surface albedo and radius",
         notes: "The path is relative to the file that names it.",
         source: "a table of your own",
         notation: Notation::Table,

@@ -5,6 +5,7 @@ mod compare;
 mod curve;
 mod eval;
 mod fit;
+mod list;
 mod model;
 mod plot;
 mod quantity;
@@ -20,6 +21,7 @@ use clap::{Args, Subcommand};
 #[command(after_help = "\
 Examples:
   subsurface profile eval --model burley_diffuse --surface-albedo 0.8 --mean-free-path-mm 1.3 --radii 0,0.5,1
+  subsurface profile list
   subsurface profile compare
   subsurface profile plot --model burley_searchlight --surface-albedo 0.8 --out burley.svg")]
 pub struct ProfileArguments {
@@ -31,6 +33,8 @@ pub struct ProfileArguments {
 /// What to do with a profile.
 #[derive(Debug, Subcommand)]
 pub enum ProfileCommand {
+    /// List the built-in profiles with their models, lengths and sources; or the models with their coefficients.
+    List(list::ListArguments),
     /// Print densities and the distribution at given radii, as CSV.
     ///
     /// After `#` lines with the parameters, `filter_radius_mm` and, where the model ends at a radius, `r_max_mm`:
@@ -70,6 +74,7 @@ pub enum ProfileCommand {
 /// Runs the command.
 pub fn run(arguments: &ProfileArguments) -> Result<(), Failure> {
     match &arguments.command {
+        ProfileCommand::List(arguments) => list::run(arguments),
         ProfileCommand::Eval(arguments) => output::print(&eval::evaluate(arguments)?),
         ProfileCommand::Sample(arguments) => output::print(&eval::sample(arguments)?),
         ProfileCommand::Compare(arguments) => compare::run(arguments),
