@@ -4,6 +4,7 @@
 //! tabulated here, per unit of its length, over the surface albedo and the share.
 
 use subsurface_kernel::constants::{CURVE_ROWS, CURVE_STEPS, EDGE_POWER};
+use subsurface_profile::description::{Contents, Dependence};
 use subsurface_profile::{Channel, EdgeSpread, Medium, Model, RadialProfile};
 
 use crate::material::{Material, MaterialSet};
@@ -36,7 +37,7 @@ const LARGEST_HEIGHT: usize = CURVE_ROWS as usize;
 pub(crate) struct CurvePlace {
     /// Row of node 0, or of the red channel.
     pub(crate) first_curve: u32,
-    /// Rows: one per node of the surface albedo, or one per channel.
+    /// Rows: one per node of the surface albedo, one per channel, or the former for each channel.
     pub(crate) curve_count: u32,
     /// Row of the edge-spread function of node 0; 0 where the kernel reads none.
     pub(crate) first_edge: u32,
@@ -71,19 +72,21 @@ pub(crate) struct NoProfile {
 impl Curves {
     /// Bakes the models of `set`, each once; with edge-spread functions if `with_edges`.
     pub(crate) fn bake(set: &MaterialSet, with_edges: bool) -> Result<Self, NoProfile> {
-        let mut models: Vec<&Model> = Vec::new();
+        let mut models: Vec<(&Model, Option<[f64; 3]>)> = Vec::new();
         let mut model_of = Vec::with_capacity(set.materials.len());
         let mut curves: Vec<Row> = Vec::new();
         let mut edges: Vec<Row> = Vec::new();
         let mut places: Vec<CurvePlace> = Vec::new();
         for material in &set.materials {
             let model = &material.profile.model;
-            if let Some(known) = models.iter().position(|known| *known == model) {
+            // Where curves are in mm, the lengths make another one of each.
+            let lengths = (NodesOf::model(model) == NodesOf::Both).then_some(material.length_mm);
+            if let Some(known) = models.iter().position(|known| *known == (model, lengths)) {
                 model_of.push(known);
                 continue;
             }
             model_of.push(models.len());
-            models.push(model);
+            models.push((model, lengths));
             let profiles = Nodes::of(material)?;
             let quantiles: Vec<Knots> = profiles.nodes.iter().map(|profile| quantiles(&**profile)).collect();
             let mut place = CurvePlace {
@@ -150,41 +153,67 @@ impl Curves {
     }
 }
 
-/// A number of rows, or of their texels: at most 2 × 16 rows for each of 2048 models.
+/// A number of rows, or of their texels: at most 2 × 48 rows for each of 2048 models.
 fn row_number(rows: usize) -> u32 {
     u32::try_from(rows).expect("2048 models have fewer than 2^32 texels")
+}
+
+/// What the rows of a model are for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum NodesOf {
+    /// The surface albedo: channels differ by it and by the length that the row is counted in.
+    SurfaceAlbedo,
+    /// The channel: lengths are absolute, and so are radii, in mm.
+    Channel,
+    /// Both, channel by channel; radii are in mm, for the material's own lengths.
+    Both,
+}
+
+impl NodesOf {
+    /// Those of a model. Mixtures have both, so that all of them are read alike.
+    pub(crate) fn model(model: &Model) -> Self {
+        match (model.contents(), model.dependence()) {
+            (Contents::Parts(_), _) | (_, Dependence::MediumAndChannel) => Self::Both,
+            (_, Dependence::Channel) => Self::Channel,
+            (_, Dependence::Medium) => Self::SurfaceAlbedo,
+        }
+    }
 }
 
 /// The profiles of one model that get a row each.
 struct Nodes {
     nodes: Vec<Box<dyn RadialProfile>>,
-    /// Whether there is something between a row and the next: surface albedos, not channels.
-    continuous: bool,
+    /// Rows with something between one and the next: surface albedos, not channels.
+    run: usize,
 }
 
 impl Nodes {
     fn of(material: &Material) -> Result<Self, NoProfile> {
         let model = &material.profile.model;
-        let profile = |surface_albedo: f64, channel: Channel| {
-            // Radii are per unit of the model's length; a sum of Gaussians has lengths of its own, in mm.
-            Medium::new(surface_albedo, 1.0)
+        let profile = |surface_albedo: f64, channel: Channel, length: f64| {
+            Medium::new(surface_albedo, length)
                 .map_err(|error| error.to_string())
                 .and_then(|medium| model.profile(medium, channel).map_err(|error| error.to_string()))
                 .map_err(|reason| NoProfile { span: material.profile.span.clone(), surface_albedo, reason })
         };
-        Ok(if model.dependence().on_channel() {
-            let nodes = Channel::ALL.into_iter().map(|channel| profile(0.5, channel));
-            Self { nodes: nodes.collect::<Result<_, _>>()?, continuous: false }
-        } else {
-            let nodes = (0..NODES).map(|node| profile(surface_albedo(node), Channel::Red));
-            Self { nodes: nodes.collect::<Result<_, _>>()?, continuous: true }
-        })
+        let albedos = || (0..NODES).map(surface_albedo);
+        // Radii are per unit of the model's length, or in mm.
+        let (nodes, run): (Result<Vec<_>, NoProfile>, u32) = match NodesOf::model(model) {
+            NodesOf::SurfaceAlbedo => (albedos().map(|a| profile(a, Channel::Red, 1.0)).collect(), NODES),
+            NodesOf::Channel => (Channel::ALL.into_iter().map(|c| profile(0.5, c, 1.0)).collect(), 1),
+            NodesOf::Both => {
+                let of = |c: Channel| albedos().map(move |a| (a, c, material.length_mm[c.index()]));
+                (Channel::ALL.into_iter().flat_map(of).map(|(a, c, l)| profile(a, c, l)).collect(), NODES)
+            }
+        };
+        Ok(Self { nodes: nodes?, run: run as usize })
     }
 
     /// The rows of `knots`, one per node.
     fn rows<'k>(&self, knots: &'k [Knots]) -> impl Iterator<Item = Row> + use<'k> {
-        let step = usize::from(self.continuous);
-        (0..knots.len()).map(move |node| row(&knots[node], &knots[(node + step).min(knots.len() - 1)]))
+        let run = self.run;
+        let next = move |node: usize| if (node + 1) % run == 0 { node } else { node + 1 };
+        (0..knots.len()).map(move |node| row(&knots[node], &knots[next(node)]))
     }
 }
 

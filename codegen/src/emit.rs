@@ -1,17 +1,18 @@
 //! What a material set adds to the shaders: the row of its parameter table, the dispatch over the models in use, and
 //! the rows themselves.
 
-use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 use subsurface_profile::ModelKind;
+use subsurface_profile::description::Description;
 
 use crate::compose::Glue;
 use crate::curves::{CurvePlace, Curves, NoProfile};
 use crate::diagnostics::Diagnostic;
 use crate::identifier::screaming_case;
 use crate::material::{Material, MaterialSet};
-use crate::model_row::{Shared, coefficients, constant, has_shape, structure};
+use crate::mixture_text::{emit_mixtures, emit_shape};
+use crate::model_row::{ModelsInUse, Shared, constant, has_shape, is_mixture, structure};
 use crate::schema::rounded;
 use crate::value::Value;
 use subsurface_kernel::Estimator;
@@ -54,49 +55,38 @@ impl From<NoProfile> for Diagnostic {
 /// # Errors
 /// A model without a profile at a surface albedo that a texture may have.
 pub(crate) fn emit(set: &MaterialSet, choices: &Choices) -> Result<Emitted, NoProfile> {
-    let kinds: Vec<ModelKind> = set.materials.iter().map(|material| material.profile.model.kind()).collect();
     let with_edges = matches!(choices.estimator, Estimator::Separable { .. });
     let mut curves = Curves::bake(set, with_edges)?;
-    // Numbered by name, whatever the order of the materials.
-    let by_stem: BTreeMap<&str, ModelKind> =
-        kinds.iter().map(|kind| (kind.description().stem, *kind)).collect();
-    let models: Vec<ModelKind> = by_stem.into_values().collect();
+    let models = ModelsInUse::of(set.materials.iter().map(|material| &material.profile.model));
 
     let mut shared = Shared::after(&curves);
     let rows = set
         .materials
         .iter()
-        .zip(kinds.iter().zip(&curves.places))
-        .map(|(material, (&kind, place))| row(material, kind, &models, place, &mut shared))
+        .zip(&curves.places)
+        .map(|(material, place)| row(material, &models, place, &mut shared))
         .collect();
 
     let mut glue = Glue::default();
-    emit_constants(&mut glue, set, &models);
+    emit_constants(&mut glue, set, &models.all);
     emit_choices(&mut glue, choices);
     glue.text.push_str(PROFILE_CURVES);
-    emit_row(&mut glue.text, &models);
+    emit_row(&mut glue.text, &models.of_materials);
+    emit_shape(&mut glue.text, models.most_parts);
     emit_dispatch(&mut glue.text, &models);
+    if models.most_parts > 0 {
+        emit_mixtures(&mut glue.text, &models);
+    }
     shared.emit(&mut glue.text);
     curves.append(&shared.terms.texels);
-    Ok(Emitted { glue, rows, knots: shared.knots.values, curves, models })
+    Ok(Emitted { glue, rows, knots: shared.knots.values, curves, models: models.all })
 }
 
-/// Number of `kind` among the models in use.
-fn number(models: &[ModelKind], kind: ModelKind) -> u32 {
-    let position = models.iter().position(|&model| model == kind);
-    position.and_then(|p| u32::try_from(p).ok()).expect("a row's model is among the models in use")
-}
-
-fn row(
-    material: &Material,
-    kind: ModelKind,
-    models: &[ModelKind],
-    place: &CurvePlace,
-    shared: &mut Shared,
-) -> Value {
+fn row(material: &Material, models: &ModelsInUse, place: &CurvePlace, shared: &mut Shared) -> Value {
+    let (number, coefficients) = models.row(&material.profile.model, shared);
     let surface = Value::Struct(vec![
         ("length_mm", Value::vector(material.length_mm)),
-        ("model", Value::U32(number(models, kind))),
+        ("model", Value::U32(number)),
         ("surface_albedo", Value::vector(material.surface_albedo)),
         ("reflectance_at_normal", Value::scalar(material.reflectance_at_normal)),
         ("roughness", Value::scalar(material.roughness)),
@@ -106,15 +96,7 @@ fn row(
         ("first_edge", Value::U32(place.first_edge)),
         ("edge_reach", Value::scalar(place.edge_reach)),
     ]);
-    let mut fields = vec![("surface", surface)];
-    let own = coefficients(&material.profile.model, shared);
-    // Models are told apart by number: the row has room for all of the set, and nothing to say of the others.
-    fields.extend(
-        models
-            .iter()
-            .map(|&model| (model.description().stem, if model == kind { own.clone() } else { Value::Zero })),
-    );
-    Value::Struct(fields)
+    Value::Struct(std::iter::once(("surface", surface)).chain(coefficients).collect())
 }
 
 /// The constant that holds a material's number.
@@ -199,7 +181,7 @@ fn emit_row(text: &mut String, models: &[ModelKind]) {
 
 /// A function whose body is chosen by model: a plain call where the set uses one model only. What `call` returns may have
 /// lines, which are indented.
-fn emit_switch(
+pub(crate) fn emit_switch(
     text: &mut String,
     head: &str,
     selector: &str,
@@ -225,7 +207,22 @@ fn emit_switch(
     text.push_str("}\n\n");
 }
 
-fn emit_dispatch(text: &mut String, models: &[ModelKind]) {
+/// The call of a model's function that evaluates its coefficients, which are a member of `owner`.
+pub(crate) fn profile_call(kind: ModelKind, owner: &str) -> String {
+    let Description { stem, lengths, .. } = kind.description();
+    let arguments = if lengths.is_empty() { "channel" } else { "surface_albedo, length_mm" };
+    format!("{stem}_profile({owner}.{stem}, {arguments})")
+}
+
+/// What every profile answers: name of the function, its argument, its documentation.
+pub(crate) const FUNCTIONS: [(&str, &str, &str); 4] = [
+    ("area_pdf", "radius_mm", "R(r) / A per unit area, mm⁻². May diverge at r = 0."),
+    ("radial_pdf", "radius_mm", "2πr R(r) / A per unit radius, mm⁻¹."),
+    ("radial_cdf", "radius_mm", "Fraction of the reflected energy that leaves within `radius_mm`."),
+    ("sample_radius", "u", "Inverse of `profile_radial_cdf`: the radius, mm, for u in [0, 1)."),
+];
+
+fn emit_dispatch(text: &mut String, models: &ModelsInUse) {
     text.push_str("/// The profiles of the three channels of a material at a given surface albedo.\n");
     text.push_str(
         "fn material_profiles(row: SubsurfaceMaterial, surface_albedo: vec3f) -> ChannelProfiles {\n    \
@@ -233,31 +230,47 @@ fn emit_dispatch(text: &mut String, models: &[ModelKind]) {
          material_profile(row, surface_albedo.g, row.surface.length_mm.g, 1u),\n        \
          material_profile(row, surface_albedo.b, row.surface.length_mm.b, 2u),\n    );\n}\n\n",
     );
+    let (kinds, has_parts) = (&models.of_materials, models.most_parts > 0);
     text.push_str("/// The profile of one channel (0 red, 1 green, 2 blue) of a material.\n");
     let head = "fn material_profile(\n    row: SubsurfaceMaterial,\n    surface_albedo: f32,\n    length_mm: f32,\n    \
                 channel: u32,\n) -> Profile";
-    emit_switch(text, head, "row.surface.model", models, |model| {
-        let stem = model.description().stem;
-        let (arguments, curve) = if model.description().lengths.is_empty() {
-            ("channel", "channel_curve(row.surface, channel)")
-        } else {
-            ("surface_albedo, length_mm", "albedo_curve(row.surface, surface_albedo, length_mm)")
+    emit_switch(text, head, "row.surface.model", kinds, |kind| {
+        let Description { stem, lengths, .. } = kind.description();
+        let is_mixture = is_mixture(kind);
+        let coefficients = if is_mixture { "vec4f()".to_owned() } else { profile_call(kind, "row") };
+        let shape = match (is_mixture, has_shape(kind), has_parts) {
+            (true, ..) => format!("{stem}_shape(row.{stem}, surface_albedo, length_mm, channel)"),
+            (_, true, true) => format!("ProfileShape(row.{stem}.shape, array<MixturePart, MIXTURE_PARTS>())"),
+            (_, true, false) => format!("row.{stem}.shape"),
+            (_, false, true) => "ProfileShape()".to_owned(),
+            (_, false, false) => "vec4f()".to_owned(),
         };
-        let shape = if has_shape(model) { format!("row.{stem}.shape") } else { "vec4f()".to_owned() };
-        let coefficients = format!("{stem}_profile(row.{stem}, {arguments})");
-        format!("Profile(\n    {},\n    {coefficients},\n    {shape},\n    {curve},\n)", constant(model))
+        let curve = match (is_mixture, lengths) {
+            (true, _) => "channel_albedo_curve(row.surface, channel, surface_albedo)",
+            (_, []) => "channel_curve(row.surface, channel)",
+            _ => "albedo_curve(row.surface, surface_albedo, length_mm)",
+        };
+        format!("Profile(\n    {},\n    {coefficients},\n    {shape},\n    {curve},\n)", constant(kind))
     });
-    for (function, argument, docs) in [
-        ("area_pdf", "radius_mm", "R(r) / A per unit area, mm⁻². May diverge at r = 0."),
-        ("radial_pdf", "radius_mm", "2πr R(r) / A per unit radius, mm⁻¹."),
-        ("radial_cdf", "radius_mm", "Fraction of the reflected energy that leaves within `radius_mm`."),
-        ("sample_radius", "u", "Inverse of `profile_radial_cdf`: the radius, mm, for u in [0, 1)."),
-    ] {
+    let constants = if has_parts { "profile.shape.constants" } else { "profile.shape" };
+    for (function, argument, docs) in FUNCTIONS {
         let _ = writeln!(text, "/// {docs}");
         let head = format!("fn profile_{function}(profile: Profile, {argument}: f32) -> f32");
-        emit_switch(text, &head, "profile.model", models, |model| {
-            let shape = if has_shape(model) { "profile.shape, " } else { "" };
-            format!("{}_{function}(profile.coefficients, {shape}{argument})", model.description().stem)
+        emit_switch(text, &head, "profile.model", kinds, |kind| {
+            if is_mixture(kind) {
+                return format!("{}_{function}(profile.shape, {argument})", kind.description().stem);
+            }
+            function_call(kind, function, ["profile.coefficients", constants, argument])
         });
     }
+}
+
+/// The call of one of a model's [`FUNCTIONS`].
+pub(crate) fn function_call(
+    kind: ModelKind,
+    function: &str,
+    [coefficients, shape, argument]: [&str; 3],
+) -> String {
+    let shape = if has_shape(kind) { format!("{shape}, ") } else { String::new() };
+    format!("{}_{function}({coefficients}, {shape}{argument})", kind.description().stem)
 }

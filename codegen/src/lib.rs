@@ -32,6 +32,7 @@ mod lint;
 pub mod load;
 mod manifest;
 pub mod material;
+mod mixture_text;
 mod model_row;
 mod output;
 mod profile_text;

@@ -1,8 +1,10 @@
 //! The rows of the parameter table as far as profile models fill them: coefficients, and what several rows may point
 //! into.
 
-use subsurface_profile::description::{Contents, SHAPE, Values};
-use subsurface_profile::{GaussianTerm, Model, ModelKind, TabulatedModel};
+use std::collections::BTreeMap;
+
+use subsurface_profile::description::{Contents, Notation, SHAPE, Values};
+use subsurface_profile::{GaussianTerm, MixtureModel, Model, ModelKind, TabulatedModel};
 
 use crate::curves::Curves;
 use crate::unrolled::{gaussian_sums, table_search};
@@ -23,8 +25,77 @@ pub(crate) fn has_shape(kind: ModelKind) -> bool {
     kind.fields().iter().any(|field| field.member == SHAPE)
 }
 
+/// Whether the model is made of parts, which are evaluated in its place.
+pub(crate) fn is_mixture(kind: ModelKind) -> bool {
+    kind.description().notation == Notation::Parts
+}
+
+/// The models of a set. Each has a number: its position by name among all.
+#[derive(Debug, Default)]
+pub(crate) struct ModelsInUse {
+    /// Models of materials, by name.
+    pub(crate) of_materials: Vec<ModelKind>,
+    /// Models of parts of mixtures, by name.
+    pub(crate) of_parts: Vec<ModelKind>,
+    /// Both, by name.
+    pub(crate) all: Vec<ModelKind>,
+    /// Parts of the mixture that has most of them; 0 without mixtures.
+    pub(crate) most_parts: usize,
+}
+
+impl ModelsInUse {
+    pub(crate) fn of<'m>(models: impl Iterator<Item = &'m Model>) -> Self {
+        let by_name = |kinds: &BTreeMap<&'static str, ModelKind>| kinds.values().copied().collect();
+        let (mut of_materials, mut of_parts, mut most_parts) = (BTreeMap::new(), BTreeMap::new(), 0);
+        for model in models {
+            of_materials.insert(model.description().stem, model.kind());
+            if let Contents::Parts(mixture) = model.contents() {
+                let parts = parts(mixture);
+                most_parts = most_parts.max(parts.len());
+                of_parts.extend(parts.iter().map(|(_, part)| (part.description().stem, part.kind())));
+            }
+        }
+        let mut all = of_materials.clone();
+        all.extend(of_parts.clone());
+        Self {
+            of_materials: by_name(&of_materials),
+            of_parts: by_name(&of_parts),
+            all: by_name(&all),
+            most_parts,
+        }
+    }
+
+    /// Number of a model in use.
+    fn number(&self, kind: ModelKind) -> u32 {
+        let position = self.all.iter().position(|&model| model == kind);
+        position.map(number_of).expect("a row's model is among the models in use")
+    }
+
+    /// The members of a row or a part that are a model's coefficients: they are told apart by number, so there is room
+    /// for each of `kinds`, and nothing to say of the others.
+    fn members(&self, kinds: &[ModelKind], model: &Model, shared: &mut Shared) -> Vec<(&'static str, Value)> {
+        let own = coefficients(model, self, shared);
+        let value = |kind| if kind == model.kind() { own.clone() } else { Value::Zero };
+        kinds.iter().map(|&kind| (kind.description().stem, value(kind))).collect()
+    }
+
+    /// The number of a material's model, and the members of its row.
+    pub(crate) fn row(&self, model: &Model, shared: &mut Shared) -> (u32, Vec<(&'static str, Value)>) {
+        (self.number(model.kind()), self.members(&self.of_materials, model, shared))
+    }
+}
+
+/// The parts of a mixture that have a share, with their models, which are no mixtures themselves.
+fn parts(mixture: &MixtureModel) -> Vec<(f64, &Model)> {
+    mixture.leaves().into_iter().filter(|(weight, _)| *weight > 0.0).collect()
+}
+
+/// Members of the struct of a mixture.
+pub(crate) const PARTS: [&str; MixtureModel::MAXIMUM_PARTS] =
+    ["part_0", "part_1", "part_2", "part_3", "part_4", "part_5", "part_6", "part_7"];
+
 /// The values of a model's struct, by member.
-pub(crate) fn coefficients(model: &Model, shared: &mut Shared) -> Value {
+fn coefficients(model: &Model, models: &ModelsInUse, shared: &mut Shared) -> Value {
     match model.contents() {
         Contents::Coefficients => Value::Struct(members(model)),
         Contents::Terms(terms) => {
@@ -36,6 +107,21 @@ pub(crate) fn coefficients(model: &Model, shared: &mut Shared) -> Value {
             ("knot_count", Value::U32(number_of(table.radii().len()))),
             ("table_count", Value::U32(number_of(table.surface_albedos().len()))),
         ]),
+        Contents::Parts(mixture) => {
+            let parts = parts(mixture);
+            // A shorter mixture ends in copies of its last part, which have no share.
+            let part = |index: usize| {
+                let (weight, part) = parts.get(index).map_or((0.0, parts[parts.len() - 1].1), |part| *part);
+                let mut members = vec![
+                    ("weight", Value::scalar(weight)),
+                    ("model", Value::U32(models.number(part.kind()))),
+                ];
+                members.extend(models.members(&models.of_parts, part, shared));
+                Value::Struct(members)
+            };
+            let values: Vec<Value> = (0..models.most_parts).map(part).collect();
+            Value::Struct(PARTS.into_iter().zip(values).collect())
+        }
     }
 }
 

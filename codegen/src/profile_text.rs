@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use subsurface_profile::Model;
-use subsurface_profile::description::{Field, Notation, Values};
+use subsurface_profile::description::{Contents, Field, Notation, Values};
 
 use crate::schema::length_word;
 
@@ -49,6 +49,16 @@ fn expression(model: &Model, indent: &str) -> Option<String> {
             Some(format!("{name}([\n{lines}{indent}])"))
         }
         Notation::Table => None,
+        Notation::Parts => {
+            let Contents::Parts(mixture) = model.contents() else { return None };
+            let deeper = format!("{indent}    ");
+            let mut lines = String::new();
+            for part in &mixture.parts {
+                let model = expression(&part.model, &deeper)?;
+                let _ = writeln!(lines, "{deeper}(weight: {:?}, model: {model}),", part.weight);
+            }
+            Some(format!("{name}([\n{lines}{indent}])"))
+        }
     }
 }
 

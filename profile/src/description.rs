@@ -51,6 +51,8 @@ pub enum Notation {
     },
     /// The path of a table in the field `file`.
     Table,
+    /// A list of parts, each with the named fields and a `model`.
+    Parts,
 }
 
 /// A function of the surface albedo A that lists of coefficients are powers of.
@@ -423,6 +425,8 @@ pub enum Contents<'a> {
     Terms(&'a [crate::GaussianTerm]),
     /// A table.
     Table(&'a crate::TabulatedModel),
+    /// Other models.
+    Parts(&'a crate::MixtureModel),
 }
 
 /// Calls `visitor` with the fields of a model that has a fixed number of them.

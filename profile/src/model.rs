@@ -2,8 +2,9 @@
 
 use crate::description::{Argument, Contents, Dependence, Description, Field, ProfileModel, Slot};
 use crate::{
-    BurleyModel, Channel, DipoleModel, ExponentialDipoleModel, GaussianSumModel, Length, Medium, ModelError,
-    PolynomialModel, RadialData, RadialProfile, TabulatedModel, TwoExponentialDipoleModel,
+    BurleyModel, Channel, DipoleModel, ExponentialDipoleModel, GaussianSumModel, Length, Medium,
+    MixtureModel, ModelError, PolynomialModel, RadialData, RadialProfile, TabulatedModel,
+    TwoExponentialDipoleModel,
 };
 
 /// Makes the enums of all models from their list. (The dollar is handed in for the macros within.)
@@ -93,6 +94,8 @@ models! { $
     TwoExponentialDipole(TwoExponentialDipoleModel),
     /// The dipole of diffusion theory.
     Dipole(DipoleModel),
+    /// A mixture of any of them.
+    Mixture(MixtureModel),
     /// Tables by surface albedo.
     Tabulated(TabulatedModel),
 }
@@ -232,6 +235,18 @@ impl Model {
     /// What the member is made of.
     pub fn contents(&self) -> Contents<'_> {
         each_member!(self, model => model.contents())
+    }
+
+    /// The model, or what a mixture is made of in the end, with its share.
+    pub fn leaves(&self) -> Vec<(f64, &Model)> {
+        match self.contents() {
+            Contents::Parts(mixture) => mixture.leaves(),
+            Contents::Coefficients | Contents::Terms(_) | Contents::Table(_) => vec![(1.0, self)],
+        }
+    }
+
+    pub(crate) fn collect_errors(&self, errors: &mut Vec<ModelError>) {
+        each_member!(self, model => model.collect_errors(errors));
     }
 
     /// The first of [`errors`](Self::errors).

@@ -20,6 +20,14 @@ fn channel_curve(surface: MaterialSurface, channel: u32) -> vec3f {
     return vec3f(f32(surface.first_curve + channel), 0.0, 1.0);
 }
 
+/// The same for a model whose channels have a curve each for every node of the surface albedo, in mm.
+fn channel_albedo_curve(surface: MaterialSurface, channel: u32, surface_albedo: f32) -> vec3f {
+    var own = surface;
+    own.curve_count = surface.curve_count / 3u;
+    own.first_curve = surface.first_curve + channel * own.curve_count;
+    return albedo_curve(own, surface_albedo, 1.0);
+}
+
 /// Place of texel `step` of row `row`.
 fn curve_place(row: i32, step: i32) -> vec2i {
     return vec2i(row / i32(CURVE_ROWS) * i32(CURVE_STEPS) + step, row % i32(CURVE_ROWS));

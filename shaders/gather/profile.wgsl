@@ -1,9 +1,11 @@
+// uses: the material set
+
 /// A profile model with its coefficients evaluated: what the functions `<model>_area_pdf` and its siblings take.
 struct Profile {
     model: u32,
     coefficients: vec4f,
-    /// Constants of the model that are not functions of the surface albedo; 0 for models without any.
-    shape: vec4f,
+    /// What the model has besides, which is no function of the surface albedo.
+    shape: ProfileShape,
     /// Where its quantile curve is: see `albedo_curve`.
     curve: vec3f,
 }

@@ -1,3 +1,5 @@
+// uses: lib/{angle, dipole_source, exponential_source_sum}
+
 // The dipole of diffusion theory: R(r) = α′/4π (z_r (1 + s d_r) e^(−s d_r)/d_r³ + z_v (1 + s d_v) e^(−s d_v)/d_v³),
 // d = √(r² + z²).
 // [J01] Jensen, Marschner, Levoy and Hanrahan 2001, "A Practical Model for Subsurface Light Transport", eq. (4).

@@ -61,6 +61,7 @@ pub const PROFILES: &[Module] = modules![
     "profiles/dipole",
     "profiles/exponential_dipole",
     "profiles/gaussian_sum",
+    "profiles/mixture",
     "profiles/polynomial",
     "profiles/tabulated",
     "profiles/two_exponential_dipole",

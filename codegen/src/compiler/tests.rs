@@ -182,15 +182,22 @@ fn every_kernel_compiles_with_every_profile() {
         ("t.csv".to_owned(), table.to_owned()),
         ("u.ron".to_owned(), material("Tabulated(file: \"t.csv\")")),
     ];
-    let files: Vec<_> = stems.into_iter().chain(tabulated).collect();
+    let mixture = subsurface_profile::ModelKind::Mixture.description().example;
+    let mixture = ("v.ron".to_owned(), material(mixture));
+    let files: Vec<_> = stems.into_iter().chain(tabulated).chain([mixture]).collect();
     for kernel in kernels {
         let compiler =
             Compiler::from_memory(files.iter().map(|(path, text)| (path, text.as_str()))).estimator(kernel);
         let compilation = compiler.compile().unwrap_or_else(|report| panic!("{kernel}: {report}"));
         assert!(compilation.wgsl().contains(&format!("// Estimator: {kernel}\n")), "{kernel}");
         let has_edges = matches!(kernel, Estimator::Separable { .. });
-        // No two of the published models are equal; the terms of the Gaussian sum fill a row more.
-        let rows = if has_edges { 2 } else { 1 } * (12 * 16 + 3) + 1;
+        // No two of the published models are equal; a table and a mixture beside them, and a row more for the terms of
+        // the Gaussian sum.
+        let published = subsurface_profile::Model::PUBLISHED.map(|stem| {
+            let model = subsurface_profile::Model::published(stem).expect("its own list");
+            if model.dependence().on_channel() { 3 } else { 16 }
+        });
+        let rows = if has_edges { 2 } else { 1 } * (published.iter().sum::<u32>() + 16 + 48) + 1;
         assert_eq!(compilation.parts.curve_size(), [64, rows], "{kernel}");
     }
 }
@@ -241,4 +248,40 @@ fn a_material_named_like_a_constant_of_the_shaders_is_refused_at_its_place() {
         text.contains("the name `bits` is taken by the shaders") && text.contains("bits.ron:1:1"),
         "{text}"
     );
+}
+
+#[test]
+fn every_model_has_a_shader_and_an_example_that_compiles() {
+    for kind in subsurface_profile::ModelKind::ALL {
+        let description = kind.description();
+        let stem = description.stem;
+        let module = format!("profiles/{stem}");
+        assert!(subsurface_shaders::PROFILES.iter().any(|file| file.name == module), "{module}");
+        let table = "r,r_reflectance\n0,0.1\n1,0.05\n2,0\n".to_owned();
+        let compilation = compile(&[("a.ron", material(description.example)), ("my_table.csv", table)]);
+        assert!(compilation.wgsl().contains(&format!("MODEL_{}: u32", stem.to_uppercase())), "{stem}");
+    }
+}
+
+#[test]
+fn parts_of_mixtures_are_written_out_and_evaluated_by_their_models() {
+    let within = "Mixture([(1, GaussianSum([(variance_mm2: 1, weight: 1)])), (1, Dipole(medium: Skin1))])";
+    let nested = format!("Mixture([(0.5, Burley(parametrization: Diffuse)), (0.5, {within})])");
+    let compilation = compile(&[
+        ("a.ron", material(&nested)),
+        ("b.ron", material("Mixture([(1, Burley(parametrization: Diffuse))])")),
+        ("c.ron", material("TwoExponentialDipole(entry: Searchlight)")),
+    ]);
+    let wgsl = compilation.wgsl();
+    assert!(wgsl.contains("const MIXTURE_PARTS: u32 = 3u;") && !wgsl.contains("for (var part"), "{wgsl}");
+    assert_eq!(wgsl.matches("sum += shape.parts[").count(), 2 * 3, "area_pdf and radial_cdf of three parts");
+    // Models of parts have no member in a row, and models of materials none in a part.
+    for (structure, has, has_not) in [
+        ("struct SubsurfaceMaterial {", "mixture: MixtureModel", "burley: BurleyModel"),
+        ("struct MixturePartModel {", "burley: BurleyModel", "two_exponential_dipole:"),
+    ] {
+        let text = wgsl.split_once(structure).and_then(|(_, rest)| rest.split_once("\n}"));
+        let members = text.expect("the struct is there").0;
+        assert!(members.contains(has) && !members.contains(has_not), "{members}");
+    }
 }

@@ -16,12 +16,17 @@ fn one(profile: &str) -> MaterialSet {
     set(&[("a.ron", &material(profile))])
 }
 
-/// Every published model, and a table whose density has a hole.
+/// Every published model, mixtures, and a table whose density has a hole.
 fn sets() -> Vec<(String, MaterialSet)> {
     let published = Model::PUBLISHED.into_iter().map(|stem| (stem.to_owned(), one(&format!("\"{stem}\""))));
     let hole = "surface_albedo,r,r_reflectance\n0.5,0,0.1\n0.5,0.5,0\n0.5,2,0\n0.5,3,0.1\n0.5,4,0\n";
     let tabulated = set(&[("a.ron", &material("Tabulated(file: \"t.csv\")")), ("t.csv", hole)]);
-    published.chain([("hole".to_owned(), tabulated)]).collect()
+    let mixtures = [
+        ("scaled", "Mixture([(0.3, Burley(parametrization: Searchlight)), (0.7, ExponentialDipole(entry: Diffuse))])"),
+        ("both", "Mixture([(0.5, Burley(parametrization: Diffuse)), (0.5, Dipole(medium: Skin1))])"),
+    ]
+    .map(|(name, text)| (name.to_owned(), one(text)));
+    published.chain(mixtures).chain([("hole".to_owned(), tabulated)]).collect()
 }
 
 fn bake(set: &MaterialSet, with_edges: bool) -> Curves {
@@ -39,13 +44,24 @@ fn knots(row: &Row, next: bool) -> Vec<f32> {
 /// The model's profile for a row of curves: of the node, or of the channel.
 fn profile(model: &Model, node: usize) -> Box<dyn RadialProfile> {
     let node = u32::try_from(node).expect("few rows");
-    let (surface_albedo, channel) = if model.dependence().on_channel() {
-        (0.5, Channel::ALL[node as usize])
-    } else {
-        (1.0 - (1.0 - f64::from(node) / 15.0).powi(2), Channel::Red)
+    let albedo = |node: u32| 1.0 - (1.0 - f64::from(node) / 15.0).powi(2);
+    let (surface_albedo, channel, length_mm) = match NodesOf::model(model) {
+        NodesOf::SurfaceAlbedo => (albedo(node), Channel::Red, 1.0),
+        NodesOf::Channel => (0.5, Channel::ALL[node as usize], 1.0),
+        // The lengths of `material`.
+        NodesOf::Both => (albedo(node % 16), Channel::ALL[node as usize / 16], f64::from(node / 16 + 1)),
     };
-    let medium = Medium::new(surface_albedo.min(0.999), 1.0).expect("a legal medium");
+    let medium = Medium::new(surface_albedo.min(0.999), length_mm).expect("a legal medium");
     model.profile(medium, channel).expect("a published model has a profile")
+}
+
+/// Rows of a model's curves.
+fn rows_of(model: &Model) -> usize {
+    match NodesOf::model(model) {
+        NodesOf::SurfaceAlbedo => 16,
+        NodesOf::Channel => 3,
+        NodesOf::Both => 48,
+    }
 }
 
 #[test]
@@ -53,7 +69,7 @@ fn radii_rise_within_a_row_and_hold_the_share_they_stand_for() {
     for (name, set) in sets() {
         let curves = bake(&set, false);
         let model = &set.materials[0].profile.model;
-        assert_eq!(curves.rows.len(), if model.dependence().on_channel() { 3 } else { 16 }, "{name}");
+        assert_eq!(curves.rows.len(), rows_of(model), "{name}");
         for (node, row) in curves.rows.iter().enumerate() {
             assert!(row.iter().all(|texel| texel[1] > 0.0 && texel[3] > 0.0), "{name} {node}: a plateau");
             let radii = knots(row, false);
@@ -75,12 +91,11 @@ fn radii_rise_within_a_row_and_hold_the_share_they_stand_for() {
 #[test]
 fn a_row_holds_the_next_one_and_the_last_itself() {
     for (name, set) in sets() {
-        let channels = set.materials[0].profile.model.dependence().on_channel();
+        let run = if NodesOf::model(&set.materials[0].profile.model) == NodesOf::Channel { 1 } else { 16 };
         for with_edges in [false, true] {
             let curves = bake(&set, with_edges);
-            let count = curves.places[0].curve_count as usize;
             for (number, row) in curves.rows.iter().enumerate() {
-                let is_last = channels || number % count == count - 1;
+                let is_last = number % run == run - 1;
                 let next = &curves.rows[if is_last { number } else { number + 1 }];
                 let same = row.iter().zip(next).all(|(row, next)| row[2..] == next[..2]);
                 assert!(same, "{name} {number}");

@@ -1,7 +1,7 @@
 //! Weights of Gaussians that sum neither to 1 nor to the surface albedo.
 
-use subsurface_profile::Channel;
 use subsurface_profile::description::Contents;
+use subsurface_profile::{Channel, GaussianTerm};
 
 use crate::diagnostics::Diagnostic;
 use crate::resolve::Draft;
@@ -13,7 +13,14 @@ const TOLERANCE: f64 = 0.001;
 /// Weights are shares of the reflected light: they sum to 1, or to the surface albedo when that is already applied.
 /// Any other sum is normalised away as well, but is more likely a typing error.
 pub(super) fn check(material: &Draft<'_>, diagnostics: &mut Vec<Diagnostic>) {
-    let Contents::Terms(terms) = material.profile.model.contents() else { return };
+    for (_, model) in material.profile.model.leaves() {
+        if let Contents::Terms(terms) = model.contents() {
+            check_terms(material, terms, diagnostics);
+        }
+    }
+}
+
+fn check_terms(material: &Draft<'_>, terms: &[GaussianTerm], diagnostics: &mut Vec<Diagnostic>) {
     let is_near = |a: f64, b: f64| (a - b).abs() <= TOLERANCE + 1e-9; // the slack covers the rounding of the sum
     let suspect: Vec<(Channel, f64, f64)> = Channel::ALL
         .into_iter()

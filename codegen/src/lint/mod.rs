@@ -2,6 +2,7 @@
 
 mod gaussian_weights;
 mod length;
+mod mixture_weights;
 mod specular;
 mod surface_albedo;
 mod table_range;
@@ -18,6 +19,7 @@ pub(crate) fn check(material: &Draft<'_>, diagnostics: &mut Vec<Diagnostic>) {
     surface_albedo::check(material, diagnostics);
     table_range::check(material, diagnostics);
     gaussian_weights::check(material, diagnostics);
+    mixture_weights::check(material, diagnostics);
     specular::check(material, diagnostics);
     transmission::check(material, diagnostics);
 }

@@ -1,7 +1,7 @@
 //! Surface albedos beyond those of a table.
 
-use subsurface_profile::Channel;
 use subsurface_profile::description::Contents;
+use subsurface_profile::{Channel, TabulatedModel};
 
 use crate::diagnostics::Diagnostic;
 use crate::resolve::Draft;
@@ -14,7 +14,14 @@ const TOLERANCE: f64 = 0.0005;
 /// Warns of surface albedos for which the nearest table stands in. Not of a single table, which is the shape for all;
 /// and not of 0, which shows none.
 pub(super) fn check(material: &Draft<'_>, diagnostics: &mut Vec<Diagnostic>) {
-    let Contents::Table(model) = material.profile.model.contents() else { return };
+    for (_, model) in material.profile.model.leaves() {
+        if let Contents::Table(table) = model.contents() {
+            check_table(material, table, diagnostics);
+        }
+    }
+}
+
+fn check_table(material: &Draft<'_>, model: &TabulatedModel, diagnostics: &mut Vec<Diagnostic>) {
     let mut known = model.surface_albedos();
     // What is left after the first has no last where there is only one.
     let (Some(least), Some(most)) = (known.next(), known.last()) else { return };

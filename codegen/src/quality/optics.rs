@@ -1,9 +1,10 @@
 //! The profiles of one material, with tables of what is asked for often.
 
 use subsurface_kernel::constants::FILTER_QUANTILE;
+use subsurface_profile::description::Dependence;
 use subsurface_profile::{Channel, Medium, Model, RadialProfile};
 
-use crate::curves::{Knots, NoProfile, quantiles};
+use crate::curves::{Knots, NoProfile, NodesOf, quantiles};
 use crate::material::Material;
 
 use super::density_table::DensityTable;
@@ -16,7 +17,7 @@ use super::log_table::LogTable;
 #[derive(Clone, Debug, PartialEq)]
 struct Appearance {
     model: Model,
-    /// Lengths of the channels, the longest 1.
+    /// Lengths of the channels: the longest 1, or in mm where the model has absolute ones too.
     lengths: Rgb,
     surface_albedo: Rgb,
 }
@@ -25,11 +26,14 @@ impl Appearance {
     fn of(material: &Material) -> Self {
         let model = material.profile.model.clone();
         let longest = material.length_mm.into_iter().fold(0.0, f64::max);
-        let (lengths, surface_albedo) = if model.dependence().on_channel() {
+        let (lengths, surface_albedo) = match model.dependence() {
             // Neither plays a part.
-            ([1.0; 3], [0.5; 3])
-        } else {
-            (material.length_mm.map(|length| length / longest), material.surface_albedo)
+            Dependence::Channel => ([1.0; 3], [0.5; 3]),
+            Dependence::Medium => {
+                (material.length_mm.map(|length| length / longest), material.surface_albedo)
+            }
+            // Some lengths are in mm, and so all must be.
+            Dependence::MediumAndChannel => (material.length_mm, material.surface_albedo),
         };
         Self { model, lengths, surface_albedo }
     }
@@ -94,9 +98,10 @@ impl Optics {
             let curve = quantiles(&*profile(channel, surface_albedo.min(LARGEST_SURFACE_ALBEDO))?);
             // Edge curves of all surface albedos, or of all channels, end where the widest does.
             let mut edge_reach = profile(channel, LARGEST_SURFACE_ALBEDO)?.sample_radius(LAST_SHARE);
-            if appearance.model.dependence().on_channel() {
+            if NodesOf::model(&appearance.model) != NodesOf::SurfaceAlbedo {
                 for other in Channel::ALL {
-                    edge_reach = edge_reach.max(profile(other, 0.5)?.sample_radius(LAST_SHARE));
+                    edge_reach =
+                        edge_reach.max(profile(other, LARGEST_SURFACE_ALBEDO)?.sample_radius(LAST_SHARE));
                 }
             }
             let edge_curve = EdgeCurve::new(|distance| beyond_line(&*exact, distance), edge_reach);

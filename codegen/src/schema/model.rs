@@ -3,12 +3,13 @@
 use std::collections::BTreeMap;
 
 use subsurface_profile::description::{Field, Notation, Values, Variable};
-use subsurface_profile::{Length, Model, ModelKind};
+use subsurface_profile::{Length, MixtureModel, MixturePart, Model, ModelKind};
 
 use crate::diagnostics::Diagnostic;
 use crate::schema::body::Body;
 use crate::schema::choice::{choice, unknown_word};
 use crate::schema::decoder::{Decoder, Fields, head};
+use crate::schema::profile::decode_written_model;
 use crate::source::Span;
 use crate::suggestion::{list, shortened};
 use crate::syntax::{Entry, Name, Node, Shape};
@@ -44,6 +45,10 @@ pub(super) fn decode_model(
         Notation::Table => {
             let entries = body.fields(decoder, name, example)?;
             table(decoder, name, entries)
+        }
+        Notation::Parts => {
+            let node = body.single(decoder, name, example)?;
+            parts(decoder, kind, &node)
         }
     }
 }
@@ -368,6 +373,57 @@ fn terms(decoder: &mut Decoder, kind: ModelKind, node: &Node<'_>, term: &str, on
     let mut model = kind.blank(nodes.len())?;
     fill(&mut model, &numbers);
     Some(Decoded { model, spans })
+}
+
+/// A list of parts: their fields, and a model each.
+fn parts(decoder: &mut Decoder, kind: ModelKind, node: &Node<'_>) -> Option<Decoded> {
+    const MODEL: &str = "model";
+    const ONE: &str = "(weight: 0.3, model: Burley(parametrization: Searchlight))";
+    let description = kind.description();
+    let help = || format!("for example `{}`", description.example);
+    let Shape::List(nodes) = node.shape() else {
+        decoder.wrong_type(node, description.name, "a list of parts", help());
+        return None;
+    };
+    let all = kind.fields();
+    let names: Vec<&'static str> = all.iter().map(|field| field.name()).chain([MODEL]).collect();
+    let mut spans = BTreeMap::from([("parts".to_owned(), node.span())]);
+    let mut read = Vec::with_capacity(nodes.len());
+    for (index, node) in nodes.iter().enumerate() {
+        let prefix = format!("parts[{index}].");
+        let part = match node.shape() {
+            Shape::Struct(None, entries) => {
+                let inner = decoder.fields("a part", head(None, node), entries, &names);
+                let numbers: Vec<_> =
+                    all.iter().map(|one| field(decoder, &inner, one, kind, &prefix, &mut spans)).collect();
+                let model = inner.required(decoder, MODEL, "add `model: …`, any model", |decoder, node| {
+                    decode_written_model(decoder, node, MODEL)
+                });
+                numbers.into_iter().collect::<Option<Vec<_>>>().map(|numbers| numbers.concat()).zip(model)
+            }
+            Shape::Tuple(None, pair) if pair.len() == 2 => {
+                let [weight, model] = [&pair[0], &pair[1]];
+                spans.insert(format!("{prefix}{}", all[0].path), weight.span());
+                let weight = decoder.number(weight, all[0].name(), &all[0].quantity);
+                weight.map(|weight| vec![weight]).zip(decode_written_model(decoder, model, MODEL))
+            }
+            _ => {
+                let expected = format!("a part `{}`", form_of(&names));
+                decoder.wrong_type(node, description.name, &expected, format!("write `{ONE}`"));
+                None
+            }
+        };
+        read.push(part.map(|(numbers, inline)| {
+            let of_model = format!("{prefix}{MODEL}");
+            spans.extend(
+                inline.coefficients.into_iter().map(|(path, span)| (format!("{of_model}.{path}"), span)),
+            );
+            spans.insert(of_model, inline.head);
+            MixturePart { weight: numbers[0], model: inline.model }
+        }));
+    }
+    let parts = read.into_iter().collect::<Option<Vec<_>>>()?;
+    Some(Decoded { model: MixtureModel { parts }.into(), spans })
 }
 
 fn table(decoder: &mut Decoder, name: &Name<'_>, entries: Vec<Entry<'_>>) -> Option<Decoded> {

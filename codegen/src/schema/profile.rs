@@ -90,6 +90,27 @@ pub(crate) fn decode_profile(
     if let Shape::Text(text) = node.shape() {
         return Some(ProfileExpression::Named(Spanned::new(text, node.span())));
     }
+    written_model(decoder, node, field).map(ProfileExpression::Inline)
+}
+
+/// Decodes a model that must be written out: it may not be the name of a profile file.
+pub(super) fn decode_written_model(
+    decoder: &mut Decoder,
+    node: &Node<'_>,
+    field: &str,
+) -> Option<InlineModel> {
+    if let Shape::Text(name) = node.shape() {
+        decoder.report(
+            Diagnostic::error(format!("`{field}` is a name, `\"{}\"`", shortened(&name)))
+                .label(node.span(), "expected a model with its coefficients")
+                .help("write the model out: `Burley(parametrization: Searchlight)`, or what stands in the profile's file"),
+        );
+        return None;
+    }
+    written_model(decoder, node, field)
+}
+
+fn written_model(decoder: &mut Decoder, node: &Node<'_>, field: &str) -> Option<InlineModel> {
     let Some((name, body)) = Body::of(node) else {
         let examples = ModelKind::ALL.iter().map(|kind| kind.description().example);
         let help = format!("write the stem of a profile file in quotes, or a model: {}", list(examples));
@@ -105,11 +126,7 @@ pub(crate) fn decode_profile(
     for error in &errors {
         decoder.report(describe(error, &name.span, &spans));
     }
-    errors.is_empty().then_some(ProfileExpression::Inline(InlineModel {
-        model,
-        head: name.span,
-        coefficients: spans,
-    }))
+    errors.is_empty().then_some(InlineModel { model, head: name.span, coefficients: spans })
 }
 
 fn unknown_model(decoder: &mut Decoder, name: &Name<'_>) {

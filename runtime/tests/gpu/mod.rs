@@ -5,7 +5,8 @@
 mod evaluation;
 
 use subsurface_codegen::{Compilation, Compiler, OutputFormat};
-use subsurface_profile::{Channel, Medium, Model};
+use subsurface_profile::description::Notation;
+use subsurface_profile::{Channel, Medium, Model, ModelKind};
 use subsurface_runtime::{Extent, Readback, Target, wgpu};
 
 /// A device and its queue.
@@ -90,9 +91,19 @@ pub fn compile(files: &[(&str, &str)]) -> Compilation {
         .unwrap_or_else(|report| panic!("{report}"))
 }
 
-/// Every profile that the device can evaluate: the published ones, and a table.
+/// Every profile that the device can evaluate: the published ones, and one of each model that has none, called by it.
 pub fn stems() -> Vec<&'static str> {
-    Model::PUBLISHED.into_iter().chain(["tabulated"]).collect()
+    let unpublished = ModelKind::ALL.iter().filter(|kind| kind.published().is_empty());
+    Model::PUBLISHED.into_iter().chain(unpublished.map(|kind| kind.description().stem)).collect()
+}
+
+/// Files of the profiles of models that have none published: their own examples, but for the table.
+fn example_files() -> impl Iterator<Item = (String, String)> {
+    let unpublished = ModelKind::ALL.iter().filter(|kind| kind.published().is_empty());
+    let descriptions = unpublished.map(|kind| kind.description());
+    descriptions
+        .filter(|description| description.notation != Notation::Table)
+        .map(|description| (format!("{}.ron", description.stem), description.example.to_owned()))
 }
 
 /// The files of the profile `tabulated`: another profile by bins, at surface albedos with radii of their own.
@@ -114,15 +125,28 @@ pub fn table_files() -> [(String, String); 2] {
 }
 
 /// Files of profiles that tests alone use.
-pub fn test_profile_files() -> [(String, String); 5] {
-    [
+pub fn test_profile_files() -> impl Iterator<Item = (String, String)> {
+    let files = [
         ("exponentials_alone.ron", exponentials_alone()),
         ("many_gaussians.ron", gaussians(70)),
+        ("mixture_of_mixtures.ron", mixture_of_mixtures()),
         ("short_table.ron", "Tabulated(file: \"tables/short.csv\")".to_owned()),
         ("tables/short.csv", "r_lo,r_hi,radial_reflectance\n0,0.5,0.6\n0.5,2,0.2\n2,6,0.05\n".to_owned()),
         ("two_gaussians.ron", gaussians(2)),
-    ]
-    .map(|(file, text)| (format!("profiles/{file}"), text))
+    ];
+    let files = files.into_iter().map(|(file, text)| (file.to_owned(), text)).chain(example_files());
+    files.map(|(file, text)| (format!("profiles/{file}"), text))
+}
+
+/// Parts with lengths of their own, in mm, and parts that the mean free path scales, some of them in a mixture within.
+fn mixture_of_mixtures() -> String {
+    let within =
+        "Mixture([(3, Polynomial(coefficients: Liang2023)), (1, TwoExponentialDipole(entry: Diffuse))])";
+    format!(
+        "Mixture([(0.2, {}), (0.4, {within}), (0.3, Dipole(medium: Marble)), (0.1, Tabulated(file: \
+         \"tables/short.csv\"))])",
+        gaussians(3)
+    )
 }
 
 /// No share of the light for a dipole that would reach far.

@@ -5,6 +5,7 @@ use crate::compiler::Compiler;
 use crate::constants::shared_constants;
 use crate::emit::{Choices, emit};
 use subsurface_kernel::{Estimator, OutputFormat};
+use subsurface_profile::ModelKind;
 use subsurface_shaders::{GATHER, KERNELS, LIBRARY, LIGHT, PASSES, PROFILES, modules};
 
 /// The glue of a set that uses every model.
@@ -14,20 +15,18 @@ fn glue_of_all(estimator: Estimator) -> Glue {
             "Material(profile: {profile}, mean_free_path_mm: (1.3, 0.95, 0.67), surface_albedo: (0.8, 0.6, 0.4))"
         )
     };
-    let files = [
-        ("a.ron", material("Burley(parametrization: Diffuse)")),
-        ("b.ron", material("ExponentialDipole(entry: Searchlight)")),
-        ("c.ron", material("TwoExponentialDipole(entry: Searchlight)")),
-        ("d.ron", material("GaussianSum([(variance_mm2: 1, weight: 1)])")),
-        ("e.ron", material("\"liang_2023\"")),
-        ("f.ron", material("Tabulated(file: \"f.csv\")")),
-        ("f.csv", "r_lo,r_hi,radial_reflectance\n0,1,0.1\n1,2,0.1\n".to_owned()),
-    ];
+    let table = ("my_table.csv".to_owned(), "r_lo,r_hi,radial_reflectance\n0,1,0.1\n1,2,0.1\n".to_owned());
+    let examples = ModelKind::ALL.iter().map(|kind| kind.description());
+    let files = examples
+        .map(|description| (format!("{}_one.ron", description.stem), material(description.example)))
+        .chain([table]);
     let set = Compiler::from_memory(files).load().set.expect("the set is sound");
     let choices = Choices { estimator, rejection: set.rejection, output_format: OutputFormat::default() };
     let mut emitted = emit(&set, &choices).expect("every model has a shader");
     assert_eq!(emitted.models.len(), PROFILES.len(), "a model is missing here");
-    emitted.glue.text.push_str("\nvar<private> material_table: array<SubsurfaceMaterial, 6>;\n");
+    let rows = set.materials.len();
+    let table = format!("\nvar<private> material_table: array<SubsurfaceMaterial, {rows}>;\n");
+    emitted.glue.text.push_str(&table);
     emitted.glue
 }
 
@@ -93,7 +92,8 @@ fn rooms_look_down_only() {
     let below = |room: &str| -> &[&str] {
         match room {
             "lib" => &["lib"],
-            "profiles" => &["profiles", "lib"],
+            // Which models the parts of mixtures have is known to the set alone.
+            "profiles" => &["profiles", "lib", GLUE],
             "gather" => &["gather", "lib", CONSTANTS, GLUE],
             "kernels" => &["kernels", "gather", "lib", CONSTANTS, GLUE],
             "light" => &["light", "gather", "lib", CONSTANTS, GLUE],
