@@ -90,10 +90,46 @@ fn the_diffuse_mean_free_path_is_read_as_such() {
 }
 
 #[test]
-fn only_gaussian_sums_tell_channels_apart() {
+fn models_tell_channels_apart_that_have_coefficients_for_each() {
     let row = |model, channel| eval(model, &["--radii", "1", "--channel", channel]).1;
-    assert_ne!(row("gaussian_skin", "red"), row("gaussian_skin", "blue"));
-    assert_eq!(row("burley_diffuse", "red"), row("burley_diffuse", "blue"));
+    for stem in Model::PUBLISHED {
+        let differs = row(stem, "red") != row(stem, "blue");
+        assert_eq!(differs, Model::published(stem).unwrap().dependence().on_channel(), "{stem}");
+    }
+}
+
+#[test]
+fn a_mixture_is_evaluated_like_any_other() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("mine.ron");
+    let text = "Mixture([(0.25, Burley(parametrization: Diffuse)), (0.75, Dipole(medium: Marble))])";
+    std::fs::write(&file, text).unwrap();
+    let cdf = |model: &str| eval(model, &["--radii", "0.7", "--channel", "green"]).1[0][3];
+    let expected = 0.25 * cdf("burley_diffuse") + 0.75 * cdf("dipole_marble");
+    // Two roundings.
+    assert!((cdf(file.to_str().unwrap()) - expected).abs() < 1e-15);
+}
+
+#[test]
+fn the_list_has_every_published_profile_and_every_field_of_every_model() {
+    let text = |arguments: &[&str]| {
+        let output = profile(&[&["list"], arguments].concat());
+        assert_eq!(output.status.code(), Some(0));
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let (list, markdown, sections) = (text(&[]), text(&["--markdown"]), text(&["--coefficients"]));
+    for set in subsurface_profile::ModelKind::ALL.iter().flat_map(|kind| kind.published()) {
+        let stem = set.stem;
+        assert!(list.lines().any(|line| line.starts_with(&format!("{stem} ")) && line.contains(set.source)));
+        assert!(markdown.contains(&format!("| `\"{stem}\"` |")), "{stem}");
+    }
+    for kind in subsurface_profile::ModelKind::ALL {
+        let section = sections.split(&format!("### `{}`\n", kind.description().name)).nth(1).unwrap();
+        let section = section.split("\n### ").next().unwrap();
+        let fields = kind.fields();
+        assert!(fields.iter().all(|field| section.contains(field.name())), "{section}");
+        assert_eq!(section.lines().filter(|line| line.starts_with("| `")).count(), fields.len(), "{section}");
+    }
 }
 
 #[test]

@@ -54,8 +54,8 @@ pub const LIBRARY: &[Module] = modules![
 ///
 /// A module `profiles/<model>` defines `<model>_profile`, `<model>_area_pdf`, `<model>_radial_pdf`,
 /// `<model>_radial_cdf` and `<model>_sample_radius`; lengths in mm. `gaussian_sum_area_pdf`,
-/// `gaussian_sum_radial_cdf` and the search of a table for a radius come from the compiler, which writes them out to the
-/// length that a material set needs.
+/// `gaussian_sum_radial_cdf`, the sums over the parts of a mixture and the search of a table for a radius come from the
+/// compiler, which writes them out to the length that a material set needs.
 pub const PROFILES: &[Module] = modules![
     "profiles/burley",
     "profiles/dipole",

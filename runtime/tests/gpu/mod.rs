@@ -98,12 +98,12 @@ pub fn stems() -> Vec<&'static str> {
 }
 
 /// Files of the profiles of models that have none published: their own examples, but for the table.
-fn example_files() -> impl Iterator<Item = (String, String)> {
+pub fn example_files() -> impl Iterator<Item = (String, String)> {
     let unpublished = ModelKind::ALL.iter().filter(|kind| kind.published().is_empty());
     let descriptions = unpublished.map(|kind| kind.description());
     descriptions
         .filter(|description| description.notation != Notation::Table)
-        .map(|description| (format!("{}.ron", description.stem), description.example.to_owned()))
+        .map(|description| (format!("profiles/{}.ron", description.stem), description.example.to_owned()))
 }
 
 /// The files of the profile `tabulated`: another profile by bins, at surface albedos with radii of their own.
@@ -134,8 +134,7 @@ pub fn test_profile_files() -> impl Iterator<Item = (String, String)> {
         ("tables/short.csv", "r_lo,r_hi,radial_reflectance\n0,0.5,0.6\n0.5,2,0.2\n2,6,0.05\n".to_owned()),
         ("two_gaussians.ron", gaussians(2)),
     ];
-    let files = files.into_iter().map(|(file, text)| (file.to_owned(), text)).chain(example_files());
-    files.map(|(file, text)| (format!("profiles/{file}"), text))
+    files.into_iter().map(|(file, text)| (format!("profiles/{file}"), text)).chain(example_files())
 }
 
 /// Parts with lengths of their own, in mm, and parts that the mean free path scales, some of them in a mixture within.

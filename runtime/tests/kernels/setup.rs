@@ -3,9 +3,9 @@
 use std::sync::{LazyLock, Mutex};
 
 use crate::buffers::Buffers;
-use crate::gpu::{Gpu, model, stems, table_files};
+use crate::gpu::{Gpu, example_files, model, stems, table_files};
 use subsurface_codegen::{Compiler, Estimator, OutputFormat, Rejection};
-use subsurface_profile::{Channel, Length, Medium, RadialProfile};
+use subsurface_profile::{Channel, Length, Medium, ModelKind, RadialProfile};
 use subsurface_runtime::{
     DebugView, Extent, GBuffer, KernelParts, Path, SubsurfaceInputs, SubsurfacePass, SubsurfaceView, wgpu,
 };
@@ -49,16 +49,16 @@ impl Description {
     /// The same, or fewer where a software driver would take minutes: a material of every model for sums over all
     /// pixels, whose cost does not depend on a model's coefficients.
     pub(crate) fn affordable(kernel: Estimator) -> Self {
-        let every_model = [
-            "burley_searchlight",
-            "exponential_dipole_searchlight",
-            "gaussian_skin",
-            "liang_2023",
-            "tabulated",
-            "two_exponential_dipole_searchlight",
-        ];
         let all = Self::all_profiles(kernel);
-        if kernel == Estimator::Dense { Self { stems: every_model.to_vec(), ..all } } else { all }
+        if kernel != Estimator::Dense {
+            return all;
+        }
+        let of_model = |kind: &ModelKind| {
+            kind.published().first().map_or(kind.description().stem, |published| published.stem)
+        };
+        let mut stems: Vec<&'static str> = ModelKind::ALL.iter().map(of_model).collect();
+        stems.sort_unstable();
+        Self { stems, ..all }
     }
 
     /// All profiles, or a pair where software drivers compile for half a minute what the other path and the comparison of
@@ -84,7 +84,7 @@ impl Description {
             // Materials are numbered by name.
             (format!("material_{number:02}.ron"), material(stem, factor))
         });
-        Compiler::from_memory(materials.chain(table_files()))
+        Compiler::from_memory(materials.chain(table_files()).chain(example_files()))
             .with_debug_views()
             .estimator(self.kernel)
             .rejection(self.rejection)
