@@ -1,10 +1,11 @@
 //! No text makes reading a material panic, and every diagnostic about it can be shown.
 
 use proptest::prelude::*;
-use subsurface_codegen::{Loaded, load_memory};
+use subsurface_codegen::{Loaded, load_memory, profile_file_text};
+use subsurface_profile::ModelKind;
 
 /// Pieces that material files are made of, and some that they are not.
-const PIECES: [&str; 76] = [
+const PIECES: [&'static str; 64] = [
     "Material",
     "MaterialSet",
     "kernel",
@@ -38,29 +39,17 @@ const PIECES: [&str; 76] = [
     "\"skin\"",
     "\"p\"",
     "\"burley_diffuse\"",
-    "Burley",
     "parametrization",
     "Fit",
     "length",
     "MeanFreePath",
-    "constant",
-    "slope",
-    "amplitude",
-    "pivot",
-    "exponent",
-    "Polynomial",
     "coefficients",
     "Liang2023",
     "a",
     "b",
     "c",
-    "GaussianSum",
-    "variance_mm2",
-    "weight",
-    "ExponentialDipole",
-    "TwoExponentialDipole",
-    "short_weight",
     "entry",
+    "model",
     "Searchlight",
     "0",
     "1",
@@ -84,7 +73,10 @@ const PIECES: [&str; 76] = [
 ];
 
 fn pieces() -> impl Strategy<Value = String> {
-    prop::collection::vec(prop::sample::select(PIECES.to_vec()), 0..60).prop_map(|pieces| pieces.concat())
+    let names = ModelKind::ALL.iter().map(|kind| kind.description().name);
+    let fields = ModelKind::ALL.iter().flat_map(|kind| kind.fields()).map(|field| field.name());
+    let pieces: Vec<&'static str> = PIECES.into_iter().chain(names).chain(fields).collect();
+    prop::collection::vec(prop::sample::select(pieces), 0..60).prop_map(|pieces| pieces.concat())
 }
 
 /// A material that is right but for a few characters.
@@ -204,22 +196,14 @@ proptest! {
 
     #[test]
     fn random_coefficients(numbers in prop::array::uniform12(-1e3f64..1e3)) {
-        let [a, b, c, d, e, f, g, h, i, j, k, l] = numbers;
-        let polynomial = format!(
-            "Polynomial(a: (linear: {a}, amplitude: {b}, decades: {c}), b: (scale: {d}, curvature: {e}, pivot: {f}, \
-             offset: {g}, exponent: {h}), c: (amplitude: {i}, rate: {j}, offset: {k}))"
-        );
-        let dipole = format!(
-            "ExponentialDipole(exponential_weight: ({a}, {b}, {c}), exponential_length: ({d}, {e}, {f}), \
-             dipole_depth: ({g}, {h}, {i}), dipole_attenuation: ({j}, {k}, {l}))"
-        );
         let rest = "mean_free_path_mm: (1, 1, 1), surface_albedo: (0.5, 0.5, 0.5)";
-        let two = format!(
-            "TwoExponentialDipole(exponential_weight: ({a}, {b}, {c}, {d}), exponential_length: ({e}, {f}, {g}, {h}), \
-             dipole_depth: ({i}, {j}, {k}, {l}), dipole_attenuation: ({a}, {e}, {i}, {l}), short_weight: {a}, \
-             short_length: {b}, second_weight: {c}, second_depth: {d})"
-        );
-        for model in [polynomial, dipole, two] {
+        let mut next = numbers.iter().cycle();
+        let mut models: Vec<String> = ModelKind::ALL.iter().filter_map(|kind| kind.blank(2)).map(|mut model| {
+            model.visit(&mut |slot| slot.values.iter_mut().zip(next.by_ref()).for_each(|(place, value)| *place = *value));
+            profile_file_text(&model, &[]).expect("a model of coefficients")
+        }).collect();
+        models.push(format!("Mixture([({}, {}), ({}, {})])", numbers[0], models[0], numbers[1], models[1]));
+        for model in models {
             check(&load_memory([("skin.ron", format!("Material(profile: {model}, {rest})"))]));
         }
     }
