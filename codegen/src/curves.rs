@@ -212,7 +212,7 @@ impl Nodes {
     /// The rows of `knots`, one per node.
     fn rows<'k>(&self, knots: &'k [Knots]) -> impl Iterator<Item = Row> + use<'k> {
         let run = self.run;
-        let next = move |node: usize| if (node + 1) % run == 0 { node } else { node + 1 };
+        let next = move |node: usize| if (node + 1).is_multiple_of(run) { node } else { node + 1 };
         (0..knots.len()).map(move |node| row(&knots[node], &knots[next(node)]))
     }
 }

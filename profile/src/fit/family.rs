@@ -41,7 +41,8 @@ impl Family {
 
     /// Its name: that of the model.
     pub fn name(self) -> &'static str {
-        self.kind.description().stem
+        let description = self.kind.description();
+        description.stem
     }
 
     /// What a legend calls it.
