@@ -59,7 +59,7 @@ fn the_caller_overrides_the_file_of_the_set() {
     ] {
         assert!(own.wgsl().contains(line), "{line}");
     }
-    assert!(own.rust.contains("KernelKind::ImportanceSampled") && own.rust.contains("taps: 33"));
+    assert!(own.rust.contains("Estimator::ImportanceSampled") && own.rust.contains("taps: 33"));
 
     let default = Rejection::default();
     let other = Compiler::new(directory).estimator(Estimator::default()).rejection(default);
@@ -69,7 +69,7 @@ fn the_caller_overrides_the_file_of_the_set() {
     assert_eq!(other.set.estimator, own.estimator());
     assert!(other.wgsl().contains("// Estimator: Interleaved, 4 taps\n"));
     assert!(other.wgsl().contains("texture_storage_2d<rgba32float, write>"));
-    assert!(other.rust.contains("KernelKind::Interleaved"));
+    assert!(other.rust.contains("Estimator::Interleaved"));
     assert_ne!(other.provenance, own.provenance);
 }
 
