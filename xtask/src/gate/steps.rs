@@ -4,10 +4,10 @@ use super::step::{Outcome, Step};
 use crate::shell::{self, Failure, cargo, run};
 use crate::tool::{self, Found};
 use crate::toolchain;
-use crate::{accuracy, test};
+use crate::{accuracy, tables, test};
 
 /// What every change passes before it is merged.
-pub(crate) const ALL: [Step; 11] = [
+pub(crate) const ALL: [Step; 12] = [
     FORMATTING,
     SPELLING,
     DEPENDENCIES,
@@ -16,6 +16,7 @@ pub(crate) const ALL: [Step; 11] = [
     DOCUMENTATION,
     TESTS,
     ACCURACY,
+    TABLES,
     Step { title: "oldest Rust", what: "cargo +1.88 check --workspace --all-targets", run: oldest_rust },
     Step { title: "packages", what: "cargo package --workspace", run: packages },
     Step { title: "semantic versions", what: "cargo semver-checks", run: semantic_versions },
@@ -64,6 +65,8 @@ const TESTS: Step = Step { title: "tests", what: "cargo xtask test", run: tests 
 const ACCURACY: Step =
     Step { title: "accuracy", what: "cargo xtask accuracy --check", run: accuracy_is_current };
 
+const TABLES: Step = Step { title: "tables", what: "cargo xtask tables --check", run: tables_are_current };
+
 fn passes(arguments: &[&str]) -> Result<Outcome, Failure> {
     run(cargo().args(arguments))?;
     Ok(Outcome::Passed)
@@ -110,6 +113,11 @@ fn unit_tests() -> Result<Outcome, Failure> {
 
 fn accuracy_is_current() -> Result<Outcome, Failure> {
     accuracy::run_command(&["--check".to_owned()])?;
+    Ok(Outcome::Passed)
+}
+
+fn tables_are_current() -> Result<Outcome, Failure> {
+    tables::run_command(&["--check".to_owned()])?;
     Ok(Outcome::Passed)
 }
 
