@@ -5,7 +5,7 @@ use subsurface_codegen::{Loaded, load_memory, profile_file_text};
 use subsurface_profile::ModelKind;
 
 /// Pieces that material files are made of, and some that they are not.
-const PIECES: [&'static str; 64] = [
+const PIECES: [&str; 64] = [
     "Material",
     "MaterialSet",
     "kernel",

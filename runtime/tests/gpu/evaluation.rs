@@ -34,12 +34,12 @@ impl Gpu {
         };
         let storage = wgpu::BufferUsages::STORAGE;
         // The rows of a few materials fit what a uniform buffer holds.
-        let table = buffer(&compilation.parts.material_rows(), wgpu::BufferUsages::UNIFORM);
-        let tables = buffer(&compilation.parts.profile_tables(), storage);
+        let table = buffer(compilation.parts.material_rows(), wgpu::BufferUsages::UNIFORM);
+        let tables = buffer(compilation.parts.profile_tables(), storage);
         let curves = self.texture(
             compilation.parts.curve_size(),
             wgpu::TextureFormat::Rgba32Float,
-            &compilation.parts.profile_curves(),
+            compilation.parts.profile_curves(),
         );
         let asked = buffer(bytemuck::cast_slice(queries), storage);
         let empty = vec![0; queries.len() * size_of::<Answer>()];
