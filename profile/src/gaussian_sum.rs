@@ -131,7 +131,7 @@ impl ProfileModel for GaussianSumModel {
         caption: "Gaussian sum",
         equation: "R(r)/A = Σ w e^(−r²/2v)/(2πv)",
         notes: "Variances v are absolute: the mean free path does not scale them. Weights are not all 0 in a channel, \
-                and are divided by their sum per channel. A sum that is neither 1 nor A (± 0.001) is warned of.",
+                and are divided by their sum per channel. A sum that is neither 1 nor A (± 0.001) gets a warning.",
         source: "d'Eon and Luebke 2007, GPU Gems 3, ch. 14",
         notation: Notation::Terms {
             term: "Gaussian",

@@ -116,7 +116,7 @@ impl ProfileModel for MixtureModel {
         caption: "mixture",
         equation: "R(r) = Σ w Rᵢ(r), Rᵢ the profiles of the parts",
         notes: "`model` is any model, written out; mixtures within mixtures count by their parts, of which there are at \
-                most 8. Weights are divided by their sum; a sum that is not 1 (± 0.001) is warned of. Parts with lengths \
+                most 8. Weights are divided by their sum; a sum that is not 1 (± 0.001) gets a warning. Parts with lengths \
                 of their own keep them, the others share the material's. A part may also be written as a pair: \
                 `(0.3, Burley(parametrization: Searchlight))`.",
         source: "any models",

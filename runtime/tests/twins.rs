@@ -161,25 +161,32 @@ fn the_sampler_on_the_device_passes_a_chi_squared_test() {
     const BINS: usize = 20;
     let gpu = Gpu::open();
     let stems = sorted_stems();
-    for (material, stem) in (0..).zip(&stems) {
-        // A fixed sequence of independent uniform numbers: multiply-with-carry hashing of the index.
-        let queries: Vec<_> = (0..SAMPLES)
-            .map(|index| {
-                let mut x = index.wrapping_mul(0x9E37_79B9) ^ 0x85EB_CA6B;
-                for _ in 0..3 {
-                    x = (x ^ (x >> 16)).wrapping_mul(0x7FEB_352D);
-                    x = (x ^ (x >> 15)).wrapping_mul(0x846C_A68B);
-                }
-                let u = (x >> 8) as f32 / 16_777_216.0;
-                Query { material, channel: 0, surface_albedo: 0.8, radius_mm: 1.0, u }
-            })
-            .collect();
-        let answers = ask(&gpu, &stems, 1.0, &queries);
+    // A fixed sequence of independent uniform numbers: multiply-with-carry hashing of the index.
+    let uniform = |index: u32| {
+        let mut x = index.wrapping_mul(0x9E37_79B9) ^ 0x85EB_CA6B;
+        for _ in 0..3 {
+            x = (x ^ (x >> 16)).wrapping_mul(0x7FEB_352D);
+            x = (x ^ (x >> 15)).wrapping_mul(0x846C_A68B);
+        }
+        (x >> 8) as f32 / 16_777_216.0
+    };
+    let query = |material, index| Query {
+        material,
+        channel: 0,
+        surface_albedo: 0.8,
+        radius_mm: 1.0,
+        u: uniform(index),
+    };
+    let queries: Vec<_> = (0..stems.len() as u32)
+        .flat_map(|material| (0..SAMPLES).map(move |index| query(material, index)))
+        .collect();
+    let answers = ask(&gpu, &stems, 1.0, &queries);
+    for (stem, answers) in stems.iter().zip(answers.chunks(SAMPLES as usize)) {
         let model = model(stem);
         let medium = Medium::new(f64::from(0.8_f32), 1.0).expect("in the domain");
         let profile = model.profile(medium, Channel::Red).expect("a published model");
         let mut counts = [0_u32; BINS];
-        for answer in &answers {
+        for answer in answers {
             let bin = (profile.radial_cdf(f64::from(answer.sample_radius)) * BINS as f64) as usize;
             counts[bin.min(BINS - 1)] += 1;
         }
