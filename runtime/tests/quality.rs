@@ -105,7 +105,7 @@ impl Drawn {
         };
         let format = wgpu::TextureFormat::Rgba32Float;
         let texels = gpu.validated(|| {
-            let mut pass = SubsurfacePass::new(&gpu.device, &gpu::kernel(kernel), format, None);
+            let mut pass = SubsurfacePass::new(&gpu.device, &kernel.parts, format, None);
             pass.resize(&gpu.device, Extent::new(size[0], size[1]), &inputs).expect("the size is legal");
             pass.prepare(&gpu.queue, &SubsurfaceView::orthographic_distances(pixel_mm as f32));
             let mut encoder = gpu.device.create_command_encoder(&Default::default());

@@ -31,7 +31,7 @@ fn a_compute_path_to_another_format_is_refused() {
     }
     let half = Description::pair(Estimator::default()).compiler().output_format(OutputFormat::Rgba16Float);
     let half = half.compile().unwrap_or_else(|report| panic!("{report}")).parts;
-    assert_eq!(half.compute_format(), Some(wgpu::TextureFormat::Rgba16Float));
+    assert_eq!(half.module().output_format(), OutputFormat::Rgba16Float);
 }
 
 #[test]
