@@ -63,7 +63,7 @@ enum Source {
 /// let skin = "Material(profile: Burley(parametrization: Searchlight), \
 ///             mean_free_path_mm: (1.3, 0.95, 0.67), surface_albedo: (0.83, 0.64, 0.55))";
 /// let compilation = subsurface_codegen::Compiler::from_memory([("skin.ron", skin)]).compile().unwrap();
-/// assert!(compilation.wgsl.contains("fn burley_radial_cdf"));
+/// assert!(compilation.wgsl().contains("fn burley_radial_cdf"));
 /// ```
 #[derive(Clone, Debug)]
 pub struct Compiler {
