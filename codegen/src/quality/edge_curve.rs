@@ -1,4 +1,4 @@
-//! The light beyond a line, as kernels read it: the twin of `curve_beyond_line` in `shaders/kernels/separable.wgsl`.
+//! The light beyond a line, as kernels read it: the twin of `shaders/kernels/separable/edge_spread.wgsl`.
 
 /// Steps of a curve.
 const STEPS: usize = 64;

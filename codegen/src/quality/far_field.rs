@@ -1,4 +1,4 @@
-//! Twin of `shaders/kernels/far_field.wgsl`: what a block gathers from beyond the ring.
+//! Twin of `shaders/kernels/interleaved/far.wgsl`: what a block gathers from beyond the ring.
 
 use std::f64::consts::TAU;
 use subsurface_kernel::constants::{

@@ -1,4 +1,4 @@
-//! Light on its way to a pixel: the twin of `shaders/kernels/rejection.wgsl`.
+//! Light on its way to a pixel: the twin of `shaders/gather/gathered.wgsl`.
 
 use subsurface_kernel::constants::SMALLEST_ENERGY;
 

@@ -1,4 +1,4 @@
-//! Twin of `shaders/kernels/near_field.wgsl`: what stays within a pixel and its eight neighbours.
+//! Twin of `shaders/kernels/interleaved/near.wgsl`: what stays within a pixel and its eight neighbours.
 
 use super::gathered::{Gathered, Rgb};
 use super::point::Point;

@@ -1,4 +1,4 @@
-//! A material at a footprint: the twin of `SurfacePoint` in `shaders/kernels/surface_point.wgsl`.
+//! A material at a footprint: the twin of `SurfacePoint` in `shaders/gather/point.wgsl`.
 
 use std::f64::consts::TAU;
 use subsurface_kernel::constants::{FILTER_QUANTILE, LARGEST_WEIGHT};
@@ -132,7 +132,7 @@ pub(super) fn pixel_at(position: [f64; 2], offset: [f64; 2]) -> [i32; 2] {
     [place(0), place(1)]
 }
 
-/// Interleaved gradient noise of a pixel in a still picture, see `low_discrepancy.wgsl`.
+/// Interleaved gradient noise of a pixel in a still picture, see `shaders/lib/noise.wgsl`.
 pub(super) fn interleaved_gradient_noise([x, y]: [i32; 2]) -> f64 {
     let dot = 0.067_110_56 * f64::from(x) + 0.005_837_15 * f64::from(y);
     (52.982_918_9 * dot.fract()).fract()
