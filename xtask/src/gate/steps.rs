@@ -1,7 +1,7 @@
 //! The steps of the gate, in the order in which they run.
 
 use super::step::{Outcome, Step};
-use crate::shell::{self, Failure, cargo, run};
+use crate::shell::{Failure, cargo, run};
 use crate::tool::{self, Found};
 use crate::toolchain;
 use crate::{accuracy, tables, test};
@@ -132,17 +132,10 @@ fn oldest_rust() -> Result<Outcome, Failure> {
     Ok(Outcome::Passed)
 }
 
-/// Each crate is packed, and built from what was packed, with the other crates taken from their packages too.
+/// Packing builds every crate once more from its package. Whether that holds for all of them is not measured yet.
 fn packages() -> Result<Outcome, Failure> {
-    let mut command = cargo();
-    // Whether the tree is clean is no question of packaging.
-    command.args(["package", "--workspace", "--exclude", "xtask", "--allow-dirty"]);
-    // The target folder and the profile of the tests, whose dependencies are built already.
-    command
-        .env("CARGO_TARGET_DIR", shell::target())
-        .args(["--config", "profile.dev.package.'*'.opt-level=1"]);
-    run(&mut command)?;
-    Ok(Outcome::Passed)
+    let command = "cargo package --workspace --exclude xtask --allow-dirty";
+    Ok(Outcome::NotRun(format!("it builds every crate once more; before a release run `{command}`")))
 }
 
 fn semantic_versions() -> Result<Outcome, Failure> {
