@@ -200,7 +200,7 @@ pub enum EstimatorError {
         usual: u32,
     },
     /// A number that the estimator cannot have.
-    #[error("{name} takes {expected} of taps, not {taps}")]
+    #[error("{name} has {}, not {taps}", of_taps(*expected))]
     Taps {
         /// The estimator's name.
         name: &'static str,
@@ -215,6 +215,15 @@ pub enum EstimatorError {
         /// The estimator's name.
         name: &'static str,
     },
+}
+
+/// The numbers as a phrase with its noun.
+fn of_taps(TapCounts { least, most, odd }: TapCounts) -> String {
+    if odd {
+        format!("an odd number of taps from {least} to {most}")
+    } else {
+        format!("{least} to {most} taps")
+    }
 }
 
 fn names() -> String {
@@ -315,10 +324,10 @@ mod tests {
         for (text, says) in [
             ("gauss", "there are interleaved, importance-sampled, separable, separable-rotated, dense"),
             ("interleaved:", "`` is no number of taps; write for example interleaved:4"),
-            ("interleaved:0", "interleaved takes a whole number from 1 to 64 of taps, not 0"),
+            ("interleaved:0", "interleaved has 1 to 64 taps, not 0"),
             ("interleaved:65", "1 to 64"),
             ("importance-sampled:4097", "1 to 4096"),
-            ("separable:16", "an odd number from 3 to 65 of taps, not 16"),
+            ("separable:16", "an odd number of taps from 3 to 65, not 16"),
             ("separable:99999999999", "no number of taps"),
             ("dense:3", "no number of taps"),
         ] {

@@ -94,7 +94,7 @@ mod tests {
         for (text, says) in [
             ("interleafed", "did you mean `interleaved`?"),
             ("gauss", "there are: interleaved, importance-sampled"),
-            ("separable:16", "an odd number from 3 to 65"),
+            ("separable:16", "an odd number of taps from 3 to 65"),
         ] {
             let error = estimator(text).err().unwrap_or_default();
             assert!(error.contains(says), "{text}: {error}");
