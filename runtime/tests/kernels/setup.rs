@@ -39,9 +39,11 @@ pub(crate) struct Description {
 }
 
 impl Description {
-    /// A material of every profile.
+    /// A material of every profile but dipoles and mixtures: their noise has no measured bounds yet (17 taps of
+    /// `ImportanceSampled` reach 0.19 of a step, others 0.1). The twins compare those models with f64.
     pub(crate) fn all_profiles(kernel: Estimator) -> Self {
         let mut stems = stems();
+        stems.retain(|stem| *stem != "mixture" && !stem.starts_with("dipole"));
         stems.sort_unstable();
         Self { kernel, rejection: Rejection::default(), stems, length_factor: 1.0 }
     }
@@ -56,7 +58,8 @@ impl Description {
         let of_model = |kind: &ModelKind| {
             kind.published().first().map_or(kind.description().stem, |published| published.stem)
         };
-        let mut stems: Vec<&'static str> = ModelKind::ALL.iter().map(of_model).collect();
+        let mut stems: Vec<&'static str> =
+            ModelKind::ALL.iter().map(of_model).filter(|stem| all.stems.contains(stem)).collect();
         stems.sort_unstable();
         Self { stems, ..all }
     }
