@@ -97,17 +97,20 @@ static ONE_LENGTH: Requirement = Requirement {
 };
 
 /// What a file says of a part besides its model.
-const PART: &[Coefficient<MixturePart>] =
-    &[Coefficient::<MixturePart>::new("weight", "w", "share of the energy", |part| {
-        from_mut(&mut part.weight)
-    })
-    .quantity(Quantity {
-        noun: "weight of a part",
-        unit: "",
-        bounds: Bounds::NonNegative,
-        kind: "number",
-        meaning: "give this part's share of the energy, 0 or more",
-    })];
+const WEIGHT: Coefficient<MixturePart> =
+    Coefficient::<MixturePart>::new("weight", "w", "share of the energy", |part| from_mut(&mut part.weight))
+        .quantity(Quantity {
+            noun: "weight of a part",
+            unit: "",
+            bounds: Bounds::NonNegative,
+            kind: "number",
+            meaning: "give this part's share of the energy, 0 or more",
+        });
+
+/// Only ratios of weights matter, so a fit leaves that of the first part as it is.
+const FIRST_PART: &[Coefficient<MixturePart>] = &[WEIGHT.never_fitted()];
+
+const OTHER_PARTS: &[Coefficient<MixturePart>] = &[WEIGHT];
 
 impl ProfileModel for MixtureModel {
     const DESCRIPTION: Description = Description {
@@ -118,7 +121,8 @@ impl ProfileModel for MixtureModel {
         notes: "`model` is any model, written out; mixtures within mixtures count by their parts, of which there are at \
                 most 8. Weights are divided by their sum; a sum that is not 1 (± 0.001) gets a warning. Parts with lengths \
                 of their own keep them, the others share the material's. A part may also be written as a pair: \
-                `(0.3, Burley(parametrization: Searchlight))`.",
+                `(0.3, Burley(parametrization: Searchlight))`. A fit leaves the first weight as it is, because only \
+                ratios count.",
         source: "any models",
         notation: Notation::Parts,
         example: "Mixture([(weight: 0.3, model: Burley(parametrization: Searchlight)), \
@@ -130,7 +134,7 @@ impl ProfileModel for MixtureModel {
     const PUBLISHED: &'static [Published<Self>] = &[];
 
     fn fields() -> Vec<&'static Field> {
-        PART.iter().map(|coefficient| &coefficient.field).collect()
+        OTHER_PARTS.iter().map(|coefficient| &coefficient.field).collect()
     }
 
     fn blank(_terms: usize) -> Option<Self> {
@@ -139,7 +143,8 @@ impl ProfileModel for MixtureModel {
 
     fn visit(&mut self, visitor: &mut dyn FnMut(Slot<'_>)) {
         for (index, part) in self.parts.iter_mut().enumerate() {
-            visit_all(PART, part, &format!("parts[{index}]."), visitor);
+            let fields = if index == 0 { FIRST_PART } else { OTHER_PARTS };
+            visit_all(fields, part, &format!("parts[{index}]."), visitor);
             part.model.visit(&mut |slot| {
                 let Slot { prefix, field, values } = slot;
                 visitor(Slot { prefix: &format!("parts[{index}].model.{prefix}"), field, values });
@@ -197,15 +202,14 @@ impl ProfileModel for MixtureModel {
         }
     }
 
-    /// A narrow and a wide Burley profile, half and half.
+    /// Two of Burley's profiles, half and half: that for diffuse entry, and that for perpendicular entry at twice its
+    /// width. (With equal shapes the fit creeps along a valley, six times as long.)
     fn start(_data: &[RadialData], _terms: usize) -> Option<Self> {
-        let burley = |narrower: f64| {
-            let BurleyShape { constant, slope, amplitude, pivot, exponent } = BurleyShape::SEARCHLIGHT;
-            let [constant, slope, amplitude] = [constant, slope, amplitude].map(|factor| narrower * factor);
-            let shape = BurleyShape { constant, slope, amplitude, pivot, exponent };
-            Model::Burley(BurleyModel { length: Length::MeanFreePath, shape })
-        };
-        let parts = [2.0, 0.5].map(|narrower| MixturePart { weight: 0.5, model: burley(narrower) });
+        let BurleyShape { constant, slope, amplitude, .. } = BurleyShape::SEARCHLIGHT;
+        let [constant, slope, amplitude] = [constant, slope, amplitude].map(|factor| 0.5 * factor);
+        let shape = BurleyShape { constant, slope, amplitude, ..BurleyShape::SEARCHLIGHT };
+        let parts = [BurleyModel::DIFFUSE, BurleyModel { shape, ..BurleyModel::SEARCHLIGHT }];
+        let parts = parts.map(|model| MixturePart { weight: 0.5, model: Model::Burley(model) });
         Some(MixtureModel { parts: parts.to_vec() })
     }
 
