@@ -9,12 +9,15 @@ use std::time::{Duration, Instant};
 use criterion::Criterion;
 use subsurface::presets::{self, Material};
 use subsurface::runtime::{
-    Bounds, Camera, CompositeSettings, DirectionalLight, Extent, Frame, Geometry, Object, Renderer,
-    SurfaceDescriptor, Target, Vertex, wgpu,
+    Bounds, Camera, DirectionalLight, Extent, Frame, FrameError, Geometry, LoadedKernel, Object, Renderer,
+    RendererDescriptor, SurfaceDescriptor, Target, Vertex, wgpu,
 };
 
 const SIZE: Extent = Extent::new(1280, 720);
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
+
+/// What records a pass.
+type Record<'a> = dyn Fn(&mut wgpu::CommandEncoder) -> Result<(), FrameError> + 'a;
 
 struct Gpu {
     device: wgpu::Device,
@@ -34,9 +37,9 @@ impl Gpu {
     }
 
     /// Time from submission until the device is done.
-    fn time(&self, record: impl Fn(&mut wgpu::CommandEncoder)) -> Duration {
+    fn time(&self, record: &Record<'_>) -> Duration {
         let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        record(&mut encoder);
+        record(&mut encoder).expect("the passes are prepared");
         let commands = encoder.finish();
         let start = Instant::now();
         self.queue.submit([commands]);
@@ -63,16 +66,12 @@ fn sphere() -> (Vec<Vertex>, Vec<u32>) {
 }
 
 fn frame(taps: u32) -> Frame<'static> {
+    let camera = Camera { position: [0.0, 0.0, 0.5], fov_y_radians: 0.4, ..Default::default() };
     Frame {
-        camera: Camera { position: [0.0, 0.0, 0.5], target: [0.0; 3], fov_y_radians: 0.4 },
         lights: &[DirectionalLight { direction: [-1.0, -1.0, -0.5], irradiance: [3.0; 3] }],
         ambient_irradiance: [0.05; 3],
-        transmission: 1.0,
-        bounds: Bounds { centre: [0.0; 3], radius: 0.11 },
-        millimetres_per_world_unit: 1000.0,
         taps: Some(taps),
-        frame_index: 0,
-        composite: CompositeSettings::default(),
+        ..Frame::new(camera, Bounds::new([0.0; 3], 0.11), 1000.0)
     }
 }
 
@@ -83,27 +82,33 @@ fn main() {
         .warm_up_time(Duration::from_millis(500))
         .measurement_time(Duration::from_secs(3));
     let gpu = Gpu::open();
-    let mut renderer = Renderer::new(&gpu.device, &presets::kernel(), FORMAT);
+    let kernel = LoadedKernel::new(&gpu.device, &gpu.queue, &presets::kernel()).expect("it fits any device");
+    let descriptor = RendererDescriptor { format: FORMAT, ..Default::default() };
+    let mut renderer = Renderer::new(&gpu.device, &kernel, &descriptor).expect("presets have a G-buffer");
     renderer.resize(&gpu.device, SIZE).expect("a frame within the limits");
+    let targets = renderer.targets().expect("resized above").clone();
+    let diffused = renderer.diffused().expect("resized above").clone();
     let output = Target::new(&gpu.device, SIZE, FORMAT, "bench picture").expect("within the limits");
     let (vertices, indices) = sphere();
     let geometry = Geometry::new(&gpu.device, &vertices, &indices);
     let surface = SurfaceDescriptor { material: Some(Material::Skin.number()), ..Default::default() };
     let objects: [Object; 1] =
-        [renderer.object(&gpu.device, &gpu.queue, geometry, &surface).expect("no textures")];
-    renderer.prepare(&gpu.queue, &frame(4));
+        [Object::new(&gpu.device, &gpu.queue, geometry, &surface).expect("no textures")];
+    renderer.prepare(&gpu.queue, &frame(4)).expect("resized above");
 
     let mut group = criterion.benchmark_group("passes/1280x720");
-    let mut bench = |name: &str, record: &dyn Fn(&mut wgpu::CommandEncoder)| {
+    let mut bench = |name: &str, record: &Record<'_>| {
         group.bench_function(name, |bencher| {
             bencher.iter_custom(|count| (0..count).map(|_| gpu.time(record)).sum());
         });
     };
     bench("shadow", &|encoder| renderer.shadow.encode(encoder, &objects));
-    bench("G-buffer", &|encoder| renderer.gbuffer.encode(encoder, &objects));
+    bench("G-buffer", &|encoder| renderer.gbuffer.encode(encoder, &objects, &targets));
     for taps in [4, 8, 16] {
-        renderer.prepare(&gpu.queue, &frame(taps));
-        bench(&format!("subsurface, {taps} taps"), &|encoder| renderer.subsurface.encode(encoder));
+        renderer.prepare(&gpu.queue, &frame(taps)).expect("resized above");
+        bench(&format!("subsurface, {taps} taps"), &|encoder| {
+            renderer.subsurface.encode(encoder, &diffused.view)
+        });
     }
     bench("composite", &|encoder| renderer.composite.encode(encoder, &output.view));
     group.finish();

@@ -5,11 +5,13 @@
 //!
 //! ```no_run
 //! use subsurface::presets::{self, Material};
-//! use subsurface::runtime::{SubsurfacePass, wgpu};
+//! use subsurface::runtime::{LoadedKernel, SubsurfaceDescriptor, SubsurfacePass, wgpu};
 //!
-//! # fn frame(device: &wgpu::Device) {
-//! let pass = SubsurfacePass::new(device, &presets::kernel(), wgpu::TextureFormat::Rgba16Float, None);
+//! # fn frame(device: &wgpu::Device, queue: &wgpu::Queue) -> Result<(), Box<dyn std::error::Error>> {
+//! let kernel = LoadedKernel::new(device, queue, &presets::kernel())?;
+//! let pass = SubsurfacePass::new(device, &kernel, &SubsurfaceDescriptor::default())?;
 //! let number_in_the_surface_target = Material::Skin.number() as f32;
+//! # Ok(())
 //! # }
 //! ```
 //!

@@ -1,6 +1,6 @@
 //! The pipeline that all baselines share: `baseline.wgsl` with a method's own text.
 
-use subsurface::runtime::{Path, bytemuck, wgpu};
+use subsurface::runtime::{FrameError, Path, bytemuck, wgpu};
 use subsurface_cli::failure::Failure;
 use subsurface_cli::kernel_bench::{Run, Stage};
 use wgpu::util::DeviceExt as _;
@@ -203,7 +203,7 @@ fn pipeline(
 }
 
 impl Run for Pass {
-    fn encode(&self, encoder: &mut wgpu::CommandEncoder) {
+    fn encode(&self, encoder: &mut wgpu::CommandEncoder) -> Result<(), FrameError> {
         for step in &self.steps {
             match &self.pipeline {
                 Pipeline::Compute(pipeline) => {
@@ -231,6 +231,7 @@ impl Run for Pass {
                 }
             }
         }
+        Ok(())
     }
 
     fn output(&self) -> &wgpu::Texture {

@@ -220,7 +220,7 @@ fn vertex_tokens(input: &VertexInput, paths: &Paths) -> TokenStream {
     quote! {
         #struct_docs
         #[repr(C)]
-        #[derive(Clone, Copy, Debug, PartialEq, #bytemuck::Pod, #bytemuck::Zeroable)]
+        #[derive(Clone, Copy, Debug, Default, PartialEq, #bytemuck::Pod, #bytemuck::Zeroable)]
         #[bytemuck(crate = #crate_path)]
         #[allow(dead_code)]
         pub struct #name { #(#fields),* }

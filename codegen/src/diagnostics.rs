@@ -32,6 +32,8 @@ pub enum Severity {
 ///         .help("did you mean `roughness`?"),
 /// );
 /// assert!(report.render(false).contains("jade.ron:1:10"));
+/// let alone = report.iter().next().unwrap().to_string();
+/// assert!(alone.starts_with("error: unknown field `rougness`"));
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostic {
@@ -83,6 +85,21 @@ impl Diagnostic {
     pub fn help(mut self, help: impl Into<String>) -> Self {
         self.help.push(help.into());
         self
+    }
+}
+
+/// What is wrong, and the remedies, a line each. The place is not in it: [`Report::render`] knows the files.
+impl fmt::Display for Diagnostic {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.severity.name(), self.message)?;
+        let label = self.primary.iter().map(|(_, label)| label).filter(|label| !label.is_empty());
+        for note in label {
+            write!(f, "\n  = note: {note}")?;
+        }
+        for help in &self.help {
+            write!(f, "\n  = help: {help}")?;
+        }
+        Ok(())
     }
 }
 

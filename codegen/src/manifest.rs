@@ -1,6 +1,6 @@
 //! The reflection manifest: what a module offers and asks for, as JSON for other tools.
 
-use naga::Module;
+use naga::{Module, ScalarKind};
 use serde_json::{Value, json};
 
 use crate::compiler::{PROFILE_CURVES_FILE, PROFILE_TABLES_FILE};
@@ -89,6 +89,14 @@ pub(crate) fn manifest(of: &ManifestOf<'_>, module: &Module, reflection: &Reflec
             json!({ "name": structure.name, "size": structure.size, "fields": fields })
         })
         .collect();
+    let overrides: Vec<Value> = module
+        .overrides
+        .iter()
+        .map(|(_, constant)| {
+            let ty = module.types[constant.ty].inner.scalar_kind();
+            json!({ "name": constant.name, "type": ty.map_or("", scalar_name) })
+        })
+        .collect();
     let Choices { estimator, rejection, output_format } = of.choices;
     let mut manifest = json!({
         "version": MANIFEST_VERSION,
@@ -105,6 +113,8 @@ pub(crate) fn manifest(of: &ManifestOf<'_>, module: &Module, reflection: &Reflec
         "profile_curves": { "file": PROFILE_CURVES_FILE, "format": "rgba32float", "size": of.curve_size },
         "materials": materials,
         "entry_points": entry_points,
+        // Constants that pipelines may set; the WGSL holds their defaults.
+        "overrides": overrides,
         "bind_groups": groups,
         "structs": structures,
     });
@@ -185,5 +195,14 @@ fn type_name(module: &Module, ty: &FieldType) -> String {
         FieldType::Matrix { columns, rows_padded } => format!("mat{columns}x{rows_padded}<f32>"),
         FieldType::Array { element, length } => format!("array<{}, {length}>", type_name(module, element)),
         FieldType::Struct(handle) => module.types[*handle].name.clone().unwrap_or_default(),
+    }
+}
+
+fn scalar_name(kind: ScalarKind) -> &'static str {
+    match kind {
+        ScalarKind::Bool => "bool",
+        ScalarKind::Sint => "i32",
+        ScalarKind::Uint => "u32",
+        _ => "f32",
     }
 }

@@ -19,17 +19,20 @@ pub enum OutputFormat {
     Rgb10a2Unorm,
     /// 8 bytes per pixel, 16 bits from 0 to 1; devices need a feature to store it.
     Rgba16Unorm,
+    /// `Rgba8Unorm` with blue first, as many screens have it; devices need a feature to store it.
+    Bgra8Unorm,
 }
 
 impl OutputFormat {
     /// Every format.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 7] = [
         Self::Rgba8Unorm,
         Self::Rgba16Float,
         Self::Rgba32Float,
         Self::Rg11b10Ufloat,
         Self::Rgb10a2Unorm,
         Self::Rgba16Unorm,
+        Self::Bgra8Unorm,
     ];
 
     /// Name in WGSL, such as `rgba16float`.
@@ -42,6 +45,7 @@ impl OutputFormat {
             Self::Rg11b10Ufloat => "rg11b10ufloat",
             Self::Rgb10a2Unorm => "rgb10a2unorm",
             Self::Rgba16Unorm => "rgba16unorm",
+            Self::Bgra8Unorm => "bgra8unorm",
         }
     }
 }

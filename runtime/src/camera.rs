@@ -3,14 +3,27 @@
 use glam::{Mat4, Vec3};
 
 /// A perspective camera in a right-handed world, y up.
+///
+/// ```
+/// use subsurface_runtime::Camera;
+///
+/// let camera = Camera { position: [0.1, 0.2, 0.5], ..Default::default() };
+/// assert_eq!((camera.target, camera.fov_y_radians), ([0.0; 3], 0.5));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
-    /// Position in world units.
+    /// Position in world units; by default (0, 0, 1).
     pub position: [f32; 3],
-    /// Point it looks at, in world units; must differ from the position.
+    /// Point it looks at, in world units; must differ from the position. By default the origin.
     pub target: [f32; 3],
-    /// Vertical field of view in radians, 0 to π.
+    /// Vertical field of view in radians, 0 to π; by default 0.5, about 29 degrees.
     pub fov_y_radians: f32,
+}
+
+impl Default for Camera {
+    fn default() -> Self {
+        Self { position: [0.0, 0.0, 1.0], target: [0.0; 3], fov_y_radians: 0.5 }
+    }
 }
 
 /// A sphere around all that is drawn: shadow maps and clip planes are fitted to it.
@@ -20,6 +33,13 @@ pub struct Bounds {
     pub centre: [f32; 3],
     /// Radius in world units, > 0.
     pub radius: f32,
+}
+
+impl Bounds {
+    /// A sphere of `radius` around `centre`, in world units.
+    pub const fn new(centre: [f32; 3], radius: f32) -> Self {
+        Self { centre, radius }
+    }
 }
 
 impl Camera {

@@ -4,6 +4,7 @@ use glam::{Mat4, Vec3};
 
 use crate::bindings::kernel;
 use crate::camera::{Bounds, upright};
+use crate::output::FrameError;
 
 /// Directional lights that one frame can hold.
 pub const LIGHT_CAPACITY: usize = subsurface_kernel::constants::LIGHT_CAPACITY as usize;
@@ -18,12 +19,32 @@ const THICKNESS_RADIUS_MM: f32 = 1.5;
 const _: fn(&kernel::GBufferFrame) -> &[kernel::Light; LIGHT_CAPACITY] = |frame| &frame.lights;
 
 /// A light at infinity.
+///
+/// ```
+/// use subsurface_runtime::DirectionalLight;
+///
+/// let from_the_left = DirectionalLight { direction: [1.0, 0.0, 0.0], ..Default::default() };
+/// assert_eq!(from_the_left.irradiance, [std::f32::consts::PI; 3]);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DirectionalLight {
-    /// Direction in which the light travels, world space; any length but 0.
+    /// Direction in which the light travels, world space; any length but 0. By default (0, −1, 0), from above.
     pub direction: [f32; 3],
-    /// Irradiance on a surface that faces the light, linear red, green, blue. π makes a white diffuse surface white.
+    /// Irradiance on a surface that faces the light, linear red, green, blue. π, the default, makes a white diffuse
+    /// surface white.
     pub irradiance: [f32; 3],
+}
+
+impl Default for DirectionalLight {
+    fn default() -> Self {
+        Self { direction: [0.0, -1.0, 0.0], irradiance: [std::f32::consts::PI; 3] }
+    }
+}
+
+/// Whether a frame can hold the lights.
+pub(crate) fn check_count(lights: &[DirectionalLight]) -> Result<(), FrameError> {
+    let (found, capacity) = (lights.len(), LIGHT_CAPACITY);
+    if found > capacity { Err(FrameError::Lights { found, capacity }) } else { Ok(()) }
 }
 
 impl DirectionalLight {
@@ -65,7 +86,7 @@ impl DirectionalLight {
             shadow_normal_offset: 2.0 * texel + filter_radius,
             thickness_filter_radius: THICKNESS_RADIUS_MM / millimetres_per_world_unit,
             millimetres_per_world_unit,
-            ..bytemuck::Zeroable::zeroed()
+            padding_108: [0; 4],
         }
     }
 }

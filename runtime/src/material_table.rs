@@ -1,10 +1,11 @@
 //! Bind group 0 of a kernel module: the parameter table, the tables of tabulated profiles where there are some, and the
 //! curves of all profiles.
 
-use wgpu::util::DeviceExt as _;
+use crate::wgpu::{self, util::DeviceExt as _};
 
-use subsurface_kernel::constants::CURVE_TEXEL_BYTES;
 use subsurface_kernel::{KernelParts, RowBinding};
+
+use crate::loaded_kernel::{LoadError, storage_buffers};
 
 /// Binding of the curves.
 const CURVES_BINDING: u32 = 2;
@@ -14,20 +15,13 @@ const CURVES_BINDING: u32 = 2;
 pub(crate) struct MaterialTable {
     pub(crate) layout: wgpu::BindGroupLayout,
     pub(crate) bind_group: wgpu::BindGroup,
-    /// The curves until a queue has taken them.
-    pending: Option<PendingCurves>,
-}
-
-/// Texels on their way to the device: a texture is made without a queue, but filled by one.
-#[derive(Debug)]
-struct PendingCurves {
-    texture: wgpu::Texture,
-    texels: Vec<u8>,
 }
 
 /// A table that is a buffer.
 struct Table<'a> {
     label: &'static str,
+    /// What it holds, for people.
+    name: &'static str,
     contents: &'a [u8],
     /// Bytes that must be bound at least.
     least: usize,
@@ -35,9 +29,14 @@ struct Table<'a> {
 }
 
 impl MaterialTable {
-    pub(crate) fn new(device: &wgpu::Device, kernel: &KernelParts) -> Self {
-        let visibility = wgpu::ShaderStages::FRAGMENT.union(wgpu::ShaderStages::COMPUTE);
+    pub(crate) fn new(
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        kernel: &KernelParts,
+    ) -> Result<Self, LoadError> {
         let tables = tables(kernel);
+        check(&device.limits(), kernel, &tables)?;
+        let visibility = wgpu::ShaderStages::FRAGMENT.union(wgpu::ShaderStages::COMPUTE);
         let mut layout_entries: Vec<_> = (0..)
             .zip(&tables)
             .map(|(binding, table)| wgpu::BindGroupLayoutEntry {
@@ -62,12 +61,11 @@ impl MaterialTable {
             count: None,
         });
         let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-            label: Some("MaterialTable layout"),
+            label: Some("LoadedKernel layout"),
             entries: &layout_entries,
         });
         let buffers: Vec<_> = tables.iter().map(|table| table.buffer(device)).collect();
-        let pending = curves(device, kernel);
-        let curves = pending.texture.create_view(&Default::default());
+        let curves = curves(device, queue, kernel);
         let mut entries: Vec<_> = (0..)
             .zip(&buffers)
             .map(|(binding, buffer)| wgpu::BindGroupEntry { binding, resource: buffer.as_entire_binding() })
@@ -75,22 +73,11 @@ impl MaterialTable {
         let resource = wgpu::BindingResource::TextureView(&curves);
         entries.push(wgpu::BindGroupEntry { binding: CURVES_BINDING, resource });
         let bind_group = device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("MaterialTable bind group"),
+            label: Some("LoadedKernel bind group"),
             layout: &layout,
             entries: &entries,
         });
-        Self { layout, bind_group, pending: Some(pending) }
-    }
-
-    /// Uploads what is not on the device yet.
-    pub(crate) fn prepare(&mut self, queue: &wgpu::Queue) {
-        let Some(PendingCurves { texture, texels }) = self.pending.take() else { return };
-        let layout = wgpu::TexelCopyBufferLayout {
-            offset: 0,
-            bytes_per_row: Some(texture.width() * CURVE_TEXEL_BYTES as u32),
-            rows_per_image: None,
-        };
-        queue.write_texture(texture.as_image_copy(), &texels, layout, texture.size());
+        Ok(Self { layout, bind_group })
     }
 }
 
@@ -103,14 +90,43 @@ fn tables(kernel: &KernelParts) -> Vec<Table<'_>> {
         RowBinding::Uniform => (wgpu::BufferBindingType::Uniform, contents.len()),
         RowBinding::Storage => (storage, kernel.module().row_stride() as usize),
     };
-    let mut tables = vec![Table { label: "MaterialTable buffer", contents, least, ty }];
+    let mut tables = vec![Table { label: "LoadedKernel rows", name: "material rows", contents, least, ty }];
     let contents = kernel.profile_tables();
     if !contents.is_empty() {
         // Indices reach all of it.
         let least = contents.len();
-        tables.push(Table { label: "MaterialTable profile tables", contents, least, ty: storage });
+        let (label, name) = ("LoadedKernel profile tables", "profile tables");
+        tables.push(Table { label, name, contents, least, ty: storage });
     }
     tables
+}
+
+/// Whether the device can hold the kernel.
+fn check(limits: &wgpu::Limits, kernel: &KernelParts, tables: &[Table<'_>]) -> Result<(), LoadError> {
+    let needed = storage_buffers(kernel.module().row_binding(), !kernel.profile_tables().is_empty());
+    let limit = limits.max_storage_buffers_per_shader_stage;
+    if needed > limit {
+        return Err(LoadError::StorageBuffers { needed, limit });
+    }
+    for table in tables {
+        let (limit, limit_name) = match table.ty {
+            wgpu::BufferBindingType::Uniform => {
+                (limits.max_uniform_buffer_binding_size, "max_uniform_buffer_binding_size")
+            }
+            wgpu::BufferBindingType::Storage { .. } => {
+                (limits.max_storage_buffer_binding_size, "max_storage_buffer_binding_size")
+            }
+        };
+        let bytes = table.contents.len() as u64;
+        if bytes > limit {
+            return Err(LoadError::Table { table: table.name, bytes, limit, limit_name });
+        }
+    }
+    let ([width, height], limit) = (kernel.curve_size(), limits.max_texture_dimension_2d);
+    if width > limit || height > limit {
+        return Err(LoadError::Curves { width, height, limit });
+    }
+    Ok(())
 }
 
 impl Table<'_> {
@@ -127,10 +143,10 @@ impl Table<'_> {
     }
 }
 
-fn curves(device: &wgpu::Device, kernel: &KernelParts) -> PendingCurves {
-    let (texels, [width, height]) = (kernel.profile_curves(), kernel.curve_size());
-    let texture = device.create_texture(&wgpu::TextureDescriptor {
-        label: Some("MaterialTable curves"),
+fn curves(device: &wgpu::Device, queue: &wgpu::Queue, kernel: &KernelParts) -> wgpu::TextureView {
+    let [width, height] = kernel.curve_size();
+    let descriptor = wgpu::TextureDescriptor {
+        label: Some("LoadedKernel curves"),
         size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
         mip_level_count: 1,
         sample_count: 1,
@@ -138,14 +154,11 @@ fn curves(device: &wgpu::Device, kernel: &KernelParts) -> PendingCurves {
         format: wgpu::TextureFormat::Rgba32Float,
         usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
         view_formats: &[],
-    });
-    PendingCurves { texture, texels: texels.to_vec() }
-}
-
-/// The module of a kernel on the device.
-pub(crate) fn shader_module(device: &wgpu::Device, kernel: &KernelParts) -> wgpu::ShaderModule {
-    device.create_shader_module(wgpu::ShaderModuleDescriptor {
-        label: Some("KernelParts module"),
-        source: wgpu::ShaderSource::Wgsl(kernel.module().wgsl().into()),
+    };
+    let order = wgpu::util::TextureDataOrder::LayerMajor;
+    let texture = device.create_texture_with_data(queue, &descriptor, order, kernel.profile_curves());
+    texture.create_view(&wgpu::TextureViewDescriptor {
+        label: Some("LoadedKernel curves"),
+        ..Default::default()
     })
 }

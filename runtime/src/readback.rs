@@ -1,4 +1,7 @@
-//! Textures on their way back to the CPU.
+//! Textures and buffers on their way back to the CPU.
+
+use crate::wgpu;
+use crate::wgpu_version::mapped_bytes;
 
 /// The texels of one texture, copied by a recorded command.
 ///
@@ -63,6 +66,23 @@ impl Readback {
     /// # Errors
     /// A device that was lost.
     pub fn wait(self, device: &wgpu::Device) -> Result<Vec<u8>, ReadbackError> {
+        let padded = BufferReadback::of(&self.buffer).wait(device)?;
+        Ok(padded.chunks(self.padded_row_bytes).flat_map(|row| &row[..self.row_bytes]).copied().collect())
+    }
+}
+
+/// The bytes of a buffer that can be mapped.
+pub(crate) struct BufferReadback<'a> {
+    buffer: &'a wgpu::Buffer,
+}
+
+impl<'a> BufferReadback<'a> {
+    pub(crate) fn of(buffer: &'a wgpu::Buffer) -> Self {
+        Self { buffer }
+    }
+
+    /// Waits for the device; the buffer is free again when this returns.
+    pub(crate) fn wait(self, device: &wgpu::Device) -> Result<Vec<u8>, ReadbackError> {
         let (sender, receiver) = std::sync::mpsc::channel();
         // The receiver outlives the wait below; a closed channel has nobody left to tell.
         self.buffer.map_async(wgpu::MapMode::Read, .., move |result| sender.send(result).unwrap_or(()));
@@ -71,8 +91,8 @@ impl Readback {
             .map_err(|error| ReadbackError::DeviceLost(error.to_string()))?;
         let mapped = receiver.recv().map_err(|error| ReadbackError::DeviceLost(error.to_string()))?;
         mapped.map_err(|error| ReadbackError::NotMapped(error.to_string()))?;
-        let padded =
-            self.buffer.get_mapped_range(..).map_err(|error| ReadbackError::NotMapped(error.to_string()))?;
-        Ok(padded.chunks(self.padded_row_bytes).flat_map(|row| &row[..self.row_bytes]).copied().collect())
+        let bytes = mapped_bytes(self.buffer).map_err(ReadbackError::NotMapped)?.to_vec();
+        self.buffer.unmap();
+        Ok(bytes)
     }
 }

@@ -1,51 +1,80 @@
 //! All four passes in order.
 
-use crate::camera::{Bounds, Camera};
-use crate::error::{ResizeError, TexelsError};
-use crate::geometry::{Geometry, Object, SurfaceDescriptor};
-use crate::light::DirectionalLight;
-use crate::pass::composite::{CompositeInputs, CompositePass, CompositeSettings};
-use crate::pass::gbuffer::{GBufferPass, GBufferView};
-use crate::pass::shadow::ShadowPass;
-use crate::pass::subsurface::{SubsurfaceInputs, SubsurfacePass};
-use crate::target::{Extent, GBuffer, Target};
-use crate::view::SubsurfaceView;
-use subsurface_kernel::KernelParts;
+use crate::extent::Extent;
+use crate::frame::Frame;
+use crate::gbuffer::GBuffer;
+use crate::input::BindError;
+use crate::label::Label;
+use crate::loaded_kernel::LoadedKernel;
+use crate::object::Object;
+use crate::output::FrameError;
+use crate::pass::PassError;
+use crate::pass::composite::{CompositeDescriptor, CompositeInputs, CompositePass};
+use crate::pass::gbuffer::{GBufferDescriptor, GBufferPass, GBufferView};
+use crate::pass::shadow::{ShadowDescriptor, ShadowPass};
+use crate::pass::subsurface::{Path, SubsurfaceDescriptor, SubsurfaceInputs, SubsurfacePass};
+use crate::target::Target;
+use crate::timestamps::PassTimer;
+use crate::wgpu;
 
-/// What one frame shows.
+const NAME: &str = "Renderer";
+
+/// How a [`Renderer`] is made.
+///
+/// ```
+/// use subsurface_runtime::{RendererDescriptor, wgpu};
+///
+/// let descriptor = RendererDescriptor { label: Some("portrait"), ..Default::default() };
+/// assert_eq!(descriptor.format, wgpu::TextureFormat::Rgba8UnormSrgb);
+/// ```
 #[derive(Clone, Copy, Debug)]
-pub struct Frame<'a> {
-    /// The camera.
-    pub camera: Camera,
-    /// Directional lights; those beyond [`LIGHT_CAPACITY`](crate::LIGHT_CAPACITY) are left out.
-    pub lights: &'a [DirectionalLight],
-    /// Irradiance that comes from everywhere alike, linear red, green, blue.
-    pub ambient_irradiance: [f32; 3],
-    /// Factor on every material's transmission: 1, or 0 for none.
-    pub transmission: f32,
-    /// A sphere around all objects.
-    pub bounds: Bounds,
-    /// Millimetres that a world unit has: 1000 for metres. There is no default: a wrong scale looks right too often.
-    pub millimetres_per_world_unit: f32,
-    /// Taps per pixel of the subsurface pass in place of the kernel's own number; 0 turns scattering off.
-    pub taps: Option<u32>,
-    /// Moves the pattern of the subsurface pass's taps on; 0 for a still picture.
-    pub frame_index: u32,
-    /// Exposure, tone mapping and background.
-    pub composite: CompositeSettings,
+pub struct RendererDescriptor<'a> {
+    /// What the labels of all objects begin with; by default the passes' types.
+    pub label: Option<&'a str>,
+    /// Format of the picture; by default `Rgba8UnormSrgb`.
+    pub format: wgpu::TextureFormat,
+    /// Path of the subsurface pass; by default the best that the device has.
+    pub path: Option<Path>,
+    /// Where compiled pipelines are kept; by default nowhere.
+    pub pipeline_cache: Option<&'a wgpu::PipelineCache>,
+    /// Where the passes write their times: a timer of four passes, [`Renderer::PASSES`]. By default nowhere.
+    pub timer: Option<&'a PassTimer>,
 }
 
-impl Frame<'_> {
-    /// How the subsurface pass sees this frame at a size of `size`.
-    pub fn subsurface_view(&self, size: Extent) -> SubsurfaceView {
-        let projection = self.camera.projection(size.width as f32 / size.height as f32, &self.bounds);
-        let view = SubsurfaceView::from_projection(projection, size.height, self.millimetres_per_world_unit)
-            .with_frame_index(self.frame_index);
-        self.taps.map_or(view, |taps| view.with_taps(taps))
+impl Default for RendererDescriptor<'_> {
+    fn default() -> Self {
+        Self {
+            label: None,
+            format: wgpu::TextureFormat::Rgba8UnormSrgb,
+            path: None,
+            pipeline_cache: None,
+            timer: None,
+        }
     }
 }
 
 /// Shadow → G-buffer → subsurface → composite.
+///
+/// ```no_run
+/// # use subsurface_runtime::*;
+/// # fn draw(
+/// #     device: &wgpu::Device, queue: &wgpu::Queue, parts: &KernelParts, geometry: Geometry, output: &wgpu::TextureView,
+/// # ) -> Result<(), Box<dyn std::error::Error>> {
+/// let kernel = LoadedKernel::new(device, queue, parts)?;
+/// let mut renderer = Renderer::new(device, &kernel, &RendererDescriptor::default())?;
+/// let surface = SurfaceDescriptor { material: kernel.material_number("skin"), ..Default::default() };
+/// let objects = [Object::new(device, queue, geometry, &surface)?];
+///
+/// renderer.resize(device, Extent::new(1280, 720))?;
+/// let lights = [DirectionalLight::default()];
+/// let frame = Frame { lights: &lights, ..Frame::new(Camera::default(), Bounds::new([0.0; 3], 0.2), 1000.0) };
+/// renderer.prepare(queue, &frame)?;
+/// let mut encoder = device.create_command_encoder(&Default::default());
+/// renderer.encode(&mut encoder, &objects, output)?;
+/// queue.submit([encoder.finish()]);
+/// # Ok(())
+/// # }
+/// ```
 #[derive(Debug)]
 pub struct Renderer {
     /// Pass 1.
@@ -56,66 +85,111 @@ pub struct Renderer {
     pub subsurface: SubsurfacePass,
     /// Pass 4.
     pub composite: CompositePass,
-    size: Option<Extent>,
+    label: Label,
+    targets: Option<(GBuffer, Target)>,
 }
 
 impl Renderer {
-    /// All that does not depend on the frame's size; `format` is that of the picture.
-    pub fn new(device: &wgpu::Device, kernel: &KernelParts, format: wgpu::TextureFormat) -> Self {
-        let shadow = ShadowPass::new(device);
-        let gbuffer = GBufferPass::new(device, kernel, &shadow);
-        let stencil = Some(GBuffer::DEPTH_STENCIL_FORMAT);
-        let subsurface = SubsurfacePass::new(device, kernel, GBuffer::COLOUR_FORMAT, stencil);
-        Self { shadow, gbuffer, subsurface, composite: CompositePass::new(device, format), size: None }
-    }
+    /// Names of the passes, in the order in which a [`PassTimer`] times them.
+    pub const PASSES: [&'static str; 4] = ["shadow", "G-buffer", "subsurface", "composite"];
 
-    /// An object to draw.
+    /// All that does not depend on the frame's size.
     ///
     /// # Errors
-    /// Textures whose bytes do not fit their size, or whose size is beyond the device's limit.
-    pub fn object(
-        &self,
+    /// A kernel without the G-buffer's entry points, or a path that the device cannot take.
+    pub fn new(
         device: &wgpu::Device,
-        queue: &wgpu::Queue,
-        geometry: Geometry,
-        surface: &SurfaceDescriptor<'_>,
-    ) -> Result<Object, TexelsError> {
-        self.gbuffer.object(device, queue, geometry, surface)
+        kernel: &LoadedKernel,
+        descriptor: &RendererDescriptor<'_>,
+    ) -> Result<Self, PassError> {
+        let RendererDescriptor { format, path, pipeline_cache, timer, .. } = *descriptor;
+        let names = ["ShadowPass", "GBufferPass", "SubsurfacePass", "CompositePass"];
+        let labels =
+            names.map(|name| descriptor.label.map_or(name.to_owned(), |label| format!("{label} {name}")));
+        let [shadow, gbuffer, subsurface, composite] = labels.each_ref().map(|label| Some(label.as_str()));
+        let timestamps = |pass| timer.and_then(|timer| timer.timestamps(pass));
+        let shadow = ShadowPass::new(
+            device,
+            &ShadowDescriptor { label: shadow, pipeline_cache, timestamps: timestamps(0) },
+        );
+        let gbuffer = GBufferPass::new(
+            device,
+            kernel,
+            &GBufferDescriptor { label: gbuffer, pipeline_cache, timestamps: timestamps(1) },
+        )?;
+        let subsurface = SubsurfacePass::new(
+            device,
+            kernel,
+            &SubsurfaceDescriptor {
+                label: subsurface,
+                format: GBuffer::COLOUR_FORMAT,
+                stencil: Some(GBuffer::DEPTH_STENCIL_FORMAT),
+                path,
+                pipeline_cache,
+                timestamps: timestamps(2),
+                ..Default::default()
+            },
+        )?;
+        let composite = CompositePass::new(
+            device,
+            &CompositeDescriptor { label: composite, format, pipeline_cache, timestamps: timestamps(3) },
+        );
+        let label = Label::new(descriptor.label, NAME);
+        Ok(Self { shadow, gbuffer, subsurface, composite, label, targets: None })
+    }
+
+    /// Takes another kernel, such as one whose materials were edited; call [`prepare`](Self::prepare) before the next
+    /// frame. Material numbers of objects are those of the new kernel: [`Object::set_material`] sets them.
+    ///
+    /// # Errors
+    /// As of [`new`](Self::new).
+    pub fn set_kernel(&mut self, device: &wgpu::Device, kernel: &LoadedKernel) -> Result<(), PassError> {
+        // Refused before either pass has taken it.
+        if !kernel.module().has_gbuffer() {
+            return Err(PassError::NoGBuffer);
+        }
+        self.subsurface.set_kernel(device, kernel)?;
+        self.gbuffer.set_kernel(device, kernel)
     }
 
     /// Makes targets and bindings anew if `size` changed.
     ///
     /// # Errors
     /// A size of 0 or beyond the device's limit; the old targets stay.
-    pub fn resize(&mut self, device: &wgpu::Device, size: Extent) -> Result<(), ResizeError> {
-        if self.size == Some(size) {
+    pub fn resize(&mut self, device: &wgpu::Device, size: Extent) -> Result<(), BindError> {
+        if self.targets.as_ref().is_some_and(|(targets, _)| targets.size() == size) {
             return Ok(());
         }
-        self.gbuffer.resize(device, size)?;
-        let Some(targets) = self.gbuffer.targets() else { return Ok(()) };
-        let inputs = SubsurfaceInputs {
-            irradiance: &targets.irradiance.view,
-            surface: &targets.surface.view,
-            depth: &targets.depth,
-            depth_stencil: Some(&targets.depth_stencil.view),
-            mean_free_path_scale: None,
-        };
-        self.subsurface.resize(device, size, &inputs)?;
-        if let Some(Target { view: diffused, .. }) = self.subsurface.output() {
-            let (unscattered, surface) = (&targets.unscattered.view, &targets.surface.view);
-            self.composite.resize(device, &CompositeInputs { diffused, unscattered, surface });
+        let targets = GBuffer::new(device, size)?;
+        let mut written = wgpu::TextureUsages::RENDER_ATTACHMENT;
+        if self.subsurface.path() == Path::Compute {
+            written |= wgpu::TextureUsages::STORAGE_BINDING;
         }
-        self.size = Some(size);
+        let label = self.label.of("diffused irradiance");
+        let diffused = Target::filled_by(device, size, GBuffer::COLOUR_FORMAT, written, &label)?;
+        self.gbuffer.bind(device, self.shadow.maps())?;
+        let inputs = SubsurfaceInputs::new(&targets.irradiance.view, &targets.surface.view, &targets.depth);
+        self.subsurface.bind(device, &inputs.with_depth_stencil(&targets.depth_stencil.view))?;
+        self.composite.bind(
+            device,
+            &CompositeInputs::new(&diffused.view, &targets.unscattered.view, &targets.surface.view),
+        )?;
+        self.targets = Some((targets, diffused));
         Ok(())
     }
 
     /// Uploads this frame's parameters.
-    pub fn prepare(&mut self, queue: &wgpu::Queue, frame: &Frame<'_>) {
-        let Some(size) = self.size else { return };
-        self.shadow.prepare(queue, frame.lights, &frame.bounds);
+    ///
+    /// # Errors
+    /// No [`resize`](Self::resize) came before, or more lights than a frame can hold.
+    pub fn prepare(&mut self, queue: &wgpu::Queue, frame: &Frame<'_>) -> Result<(), FrameError> {
+        let Some((targets, _)) = &self.targets else { return Err(FrameError::NotResized) };
+        let size = targets.size();
+        self.shadow.prepare(queue, frame.lights, &frame.bounds)?;
         self.gbuffer.prepare(
             queue,
             &GBufferView {
+                size,
                 camera: &frame.camera,
                 lights: frame.lights,
                 ambient_irradiance: frame.ambient_irradiance,
@@ -123,21 +197,36 @@ impl Renderer {
                 bounds: frame.bounds,
                 millimetres_per_world_unit: frame.millimetres_per_world_unit,
             },
-        );
-        self.subsurface.prepare(queue, &frame.subsurface_view(size));
-        self.composite.prepare(queue, &frame.composite);
+        )?;
+        self.subsurface.prepare(queue, &frame.subsurface_view(size))?;
+        self.composite.prepare(queue, &frame.composite)
     }
 
-    /// Records all four passes; the picture goes to `output`.
-    pub fn encode(&self, encoder: &mut wgpu::CommandEncoder, objects: &[Object], output: &wgpu::TextureView) {
-        self.shadow.encode(encoder, objects);
-        self.gbuffer.encode(encoder, objects);
-        self.subsurface.encode(encoder);
-        self.composite.encode(encoder, output);
+    /// Records all four passes; the picture goes to `output`, whose alpha is 1 where an object is and 0 on the
+    /// background.
+    ///
+    /// # Errors
+    /// A renderer that is not resized and prepared, or an output that it cannot write to.
+    pub fn encode(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        objects: &[Object],
+        output: &wgpu::TextureView,
+    ) -> Result<(), FrameError> {
+        let Some((targets, diffused)) = &self.targets else { return Err(FrameError::NotResized) };
+        self.shadow.encode(encoder, objects)?;
+        self.gbuffer.encode(encoder, objects, targets)?;
+        self.subsurface.encode(encoder, &diffused.view)?;
+        self.composite.encode(encoder, output)
     }
 
     /// The G-buffer; `None` before the first [`resize`](Self::resize).
     pub fn targets(&self) -> Option<&GBuffer> {
-        self.gbuffer.targets()
+        self.targets.as_ref().map(|(targets, _)| targets)
+    }
+
+    /// The diffused irradiance; `None` before the first [`resize`](Self::resize).
+    pub fn diffused(&self) -> Option<&Target> {
+        self.targets.as_ref().map(|(_, diffused)| diffused)
     }
 }

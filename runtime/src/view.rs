@@ -1,8 +1,11 @@
 //! How the subsurface pass turns pixels and depth values into millimetres.
 
 use crate::bindings::kernel;
+use crate::viewport::Viewport;
 
 /// Geometry of the picture that the subsurface pass works on, and its quality.
+///
+/// Unless they are set, the number of taps is the kernel's own, and the frame index is 0.
 ///
 /// ```
 /// use subsurface_runtime::SubsurfaceView;
@@ -21,7 +24,8 @@ pub struct SubsurfaceView {
 }
 
 impl SubsurfaceView {
-    /// A view through `projection` (columns; clip space from view space, y up, depth 0 to 1), `height_pixels` high.
+    /// A view through `projection` (columns; clip space from view space, y up, depth 0 to 1), `height_pixels` high: the
+    /// height of the viewport, if the inputs have one.
     ///
     /// Any perspective or orthographic projection will do: left- or right-handed, reversed, infinite. An orthographic
     /// one does not tell its handedness and is taken to look along −z. Pixels are square.
@@ -98,14 +102,17 @@ impl SubsurfaceView {
     }
 
     /// The view as the shaders take it, for a kernel of `taps` taps.
-    pub(crate) fn uniform(&self, taps: u32, debug_view: u32) -> kernel::SubsurfaceView {
+    pub(crate) fn uniform(&self, taps: u32, debug_view: u32, viewport: Viewport) -> kernel::SubsurfaceView {
         kernel::SubsurfaceView {
             distance_from_depth: self.distance_from_depth,
             millimetres_per_pixel: self.millimetres_per_pixel,
             taps: self.taps.unwrap_or(taps),
             frame_index: self.frame_index,
+            // No side of a texture comes near 2³¹ pixels.
+            viewport_origin: [viewport.x as i32, viewport.y as i32],
+            viewport_extent: [viewport.width as i32, viewport.height as i32],
             debug_view,
-            ..bytemuck::Zeroable::zeroed()
+            padding_52: [0; 12],
         }
     }
 }

@@ -9,7 +9,7 @@ mod gpu;
 use gpu::Gpu;
 use subsurface_codegen::{Compilation, Compiler, Estimator, OutputFormat, PictureReport};
 use subsurface_profile::{Channel, EdgeSpread, Medium, Model, RadialProfile};
-use subsurface_runtime::{Extent, SubsurfaceInputs, SubsurfacePass, SubsurfaceView, wgpu};
+use subsurface_runtime::{SubsurfaceDescriptor, SubsurfaceInputs, SubsurfacePass, SubsurfaceView, wgpu};
 
 const LENGTH_MM: [f64; 3] = [1.3, 0.95, 0.67];
 const SURFACE_ALBEDO: [f64; 3] = [0.83, 0.64, 0.55];
@@ -96,22 +96,17 @@ impl Drawn {
             let (x, _) = place(x, y);
             (1000.0 + pixel_mm * (picture.depth)(x)) as f32
         });
-        let inputs = SubsurfaceInputs {
-            irradiance: &irradiance,
-            surface: &surface,
-            depth: &depth,
-            depth_stencil: None,
-            mean_free_path_scale: None,
-        };
-        let format = wgpu::TextureFormat::Rgba32Float;
+        let inputs = SubsurfaceInputs::new(&irradiance, &surface, &depth);
+        let descriptor = SubsurfaceDescriptor::new(wgpu::TextureFormat::Rgba32Float);
         let texels = gpu.validated(|| {
-            let mut pass = SubsurfacePass::new(&gpu.device, &kernel.parts, format, None);
-            pass.resize(&gpu.device, Extent::new(size[0], size[1]), &inputs).expect("the size is legal");
-            pass.prepare(&gpu.queue, &SubsurfaceView::orthographic_distances(pixel_mm as f32));
-            let mut encoder = gpu.device.create_command_encoder(&Default::default());
-            pass.encode(&mut encoder);
-            gpu.queue.submit([encoder.finish()]);
-            gpu.read_texture(&pass.output().expect("resized").texture)
+            let mut pass = SubsurfacePass::new(&gpu.device, &gpu.load(&kernel.parts), &descriptor)
+                .expect("every device can write this format");
+            pass.bind(&gpu.device, &inputs).expect("the inputs fit");
+            let output = pass.create_output(&gpu.device).expect("bound above");
+            let view = SubsurfaceView::orthographic_distances(pixel_mm as f32);
+            pass.prepare(&gpu.queue, &view).expect("bound above");
+            gpu.submit(|encoder| pass.encode(encoder, &output.view));
+            gpu.read_texture(&output.texture)
         });
         Self { texels: bytemuck::pod_collect_to_vec(&texels), side, centre }
     }

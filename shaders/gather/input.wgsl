@@ -1,4 +1,4 @@
-// uses: lib/numeric_limits, the material set
+// uses: lib/numeric_limits
 
 // What the estimators see of the inputs; the pass that links them says where it comes from.
 
@@ -44,9 +44,13 @@ fn material_number(stored: f32, material_count: u32) -> i32 {
     return NO_MATERIAL;
 }
 
-/// The surface of a texel of the surface target, at `distance_mm`.
-fn surface_of_texel(stored_material: f32, distance_mm: f32) -> InputSurface {
-    let material = material_number(stored_material, MATERIALS_IN_SET);
+/// Material number of an id: NO_MATERIAL unless it names a material of the set.
+fn material_of_id(id: u32, material_count: u32) -> i32 {
+    return select(NO_MATERIAL, i32(id), id < material_count);
+}
+
+/// The surface of a material at `distance_mm`.
+fn surface_of_material(material: i32, distance_mm: f32) -> InputSurface {
     if material == NO_MATERIAL || distance_mm == 0.0 {
         return InputSurface(0.0, NO_MATERIAL);
     }

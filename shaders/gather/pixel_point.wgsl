@@ -1,4 +1,4 @@
-// uses: gather/{input, material, mean_free_path_scale, point}, the material set; needs: subsurface_view, surface_texture
+// uses: gather/{input, material, mean_free_path_scale, point}, the material set; needs: subsurface_view, surface_texel_at
 
 /// The point of `surface`, which the pixel at `position` shows.
 fn surface_point_at(position: vec2i, surface: InputSurface) -> SurfacePoint {
@@ -10,7 +10,7 @@ fn surface_point_at(position: vec2i, surface: InputSurface) -> SurfacePoint {
         surface.material,
         row,
         surface.distance_mm,
-        texel_surface_albedo(textureLoad(surface_texture, position, 0), row.surface),
+        texel_surface_albedo(surface_texel_at(position), row.surface),
         mean_free_path_scale_at(position),
     );
 }

@@ -8,6 +8,10 @@ struct SubsurfaceView {
     taps: u32,
     /// Moves the pattern of taps on. The same number gives the same picture.
     frame_index: u32,
+    /// First pixel of the viewport in the textures of the inputs and of the output.
+    viewport_origin: vec2i,
+    /// Size of the viewport, pixels: positions count from its upper left.
+    viewport_extent: vec2i,
     /// Debug view: one of the `DEBUG_…` constants.
     debug_view: u32,
 }

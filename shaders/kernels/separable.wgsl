@@ -1,4 +1,4 @@
-// uses: gather/{footprint, gathered, input, material, pixel_point, point, rejection}, kernels/separable/{edge_spread, packed_line, taps}, lib/numeric_limits, the material set; needs: input_pixel, input_surface, irradiance_texture, subsurface_view
+// uses: gather/{footprint, gathered, input, material, pixel_point, point, rejection}, kernels/separable/{edge_spread, packed_line, taps}, lib/numeric_limits, the material set; needs: input_pixel, input_surface, irradiance_at, subsurface_view
 
 // Two passes along one axis each: Jimenez et al. 2015, "Separable Subsurface Scattering".
 //
@@ -67,7 +67,7 @@ fn blur_first(pixel: vec2i, blurred: texture_2d<u32>) -> vec2u {
     if surface.material == NO_MATERIAL {
         return vec2u(0u);
     }
-    let texel = textureLoad(irradiance_texture, pixel, 0).rgb;
+    let texel = irradiance_at(pixel).rgb;
     let own = finite_irradiance(texel);
     let point = surface_point_at(pixel, surface);
     if footprint_taps(point, subsurface_view.taps) == 0u {

@@ -2,7 +2,7 @@
 
 /// Light for the point that `pixel` shows, of every pixel in reach.
 fn gather_at(point: SurfacePoint, pixel: vec2i) -> Gathered {
-    return gather_dense(point, pixel, vec2i(textureDimensions(irradiance_texture)));
+    return gather_dense(point, pixel, subsurface_view.viewport_extent);
 }
 
 /// Taps per pixel: all within the radius.

@@ -1,4 +1,4 @@
-// uses: gather/input, kernel/constants, lib/{angle, numeric_limits}, light/{diffuse, directional_light, normal_map, shadow, specular, transmission}, the material set
+// uses: gather/input, kernel/constants, lib/{angle, numeric_limits, object_transform}, light/{diffuse, directional_light, normal_map, shadow, specular, transmission}, the material set
 
 /// Camera and lights of one frame.
 struct GBufferFrame {
@@ -18,6 +18,8 @@ struct GBufferFrame {
 
 /// What one object adds to its material, or has instead of one.
 struct GBufferObject {
+    /// Where it stands.
+    transform: ObjectTransform,
     /// Factor on the surface albedo texture.
     surface_albedo_factor: vec3f,
     /// Material number in the set, or −1: opaque.
@@ -41,7 +43,7 @@ struct GBufferObject {
 @group(3) @binding(2) var normal_texture: texture_2d<f32>;
 @group(3) @binding(3) var surface_sampler: sampler;
 
-/// One vertex of a mesh, world space.
+/// One vertex of a mesh, in the object's space.
 struct GBufferVertex {
     @location(0) position: vec3f,
     @location(1) normal: vec3f,
@@ -68,9 +70,10 @@ struct GBufferTargets {
 @vertex
 fn gbuffer_vertex(vertex: GBufferVertex) -> GBufferInterpolated {
     var interpolated: GBufferInterpolated;
-    interpolated.clip_position = frame.clip_from_world * vec4f(vertex.position, 1.0);
-    interpolated.world_position = vertex.position;
-    interpolated.normal = vertex.normal;
+    let position = world_position(object.transform, vertex.position);
+    interpolated.clip_position = frame.clip_from_world * vec4f(position, 1.0);
+    interpolated.world_position = position;
+    interpolated.normal = world_normal(object.transform, vertex.normal);
     interpolated.texture_coordinate = vertex.texture_coordinate;
     return interpolated;
 }

@@ -10,7 +10,7 @@ fn taps_at(point: SurfacePoint) -> f32 {
 @fragment
 fn pack_fragment(@builtin(position) position: vec4f) -> @location(0) vec2u {
     let pixel = vec2i(position.xy);
-    return pack_pixel(input_surface(pixel), textureLoad(irradiance_texture, pixel, 0).rgb);
+    return pack_pixel(input_surface(pixel), irradiance_at(pixel).rgb);
 }
 
 /// What the first stage keeps of a block.
@@ -22,8 +22,8 @@ fn first_fragment(@builtin(position) position: vec4f) -> BlockTexels {
 /// Diffused irradiance of translucent pixels; every other pixel keeps its irradiance.
 @fragment
 fn subsurface_fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
-    let pixel = vec2i(position.xy);
-    let own = textureLoad(irradiance_texture, pixel, 0);
+    let pixel = viewport_position(position);
+    let own = irradiance_at(pixel);
     let surface = unpack_surface(load_packed_pixel(pixel_texture, pixel).y);
     if surface.material == NO_MATERIAL {
         return own;

@@ -15,6 +15,6 @@ fn first_fragment(@builtin(position) position: vec4f) -> @location(0) vec2u {
 /// Diffused irradiance of translucent pixels; every other pixel keeps its irradiance.
 @fragment
 fn subsurface_fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
-    let pixel = vec2i(position.xy);
-    return blur_second(pixel, textureLoad(irradiance_texture, pixel, 0), intermediate_texture);
+    let pixel = viewport_position(position);
+    return blur_second(pixel, irradiance_at(pixel), intermediate_texture);
 }

@@ -5,6 +5,6 @@
 /// Diffused irradiance of translucent pixels; every other pixel keeps its irradiance.
 @fragment
 fn subsurface_fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
-    let pixel = vec2i(position.xy);
-    return diffuse_single_stage(pixel, textureLoad(irradiance_texture, pixel, 0));
+    let pixel = viewport_position(position);
+    return diffuse_single_stage(pixel, irradiance_at(pixel));
 }

@@ -3,7 +3,7 @@
 /// The debug view in place of the diffused irradiance; alpha is 0 where the pixel does not scatter.
 @fragment
 fn debug_fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
-    let pixel = vec2i(position.xy);
+    let pixel = viewport_position(position);
     let surface = input_surface(pixel);
     let scatters = surface.material != NO_MATERIAL;
     if subsurface_view.debug_view == DEBUG_TILES {

@@ -16,5 +16,5 @@ fn subsurface_vertex(@builtin(vertex_index) index: u32) -> @builtin(position) ve
 /// Irradiance as it stands: for the pixels that the stencil leaves out.
 @fragment
 fn passthrough_fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
-    return textureLoad(irradiance_texture, vec2i(position.xy), 0);
+    return irradiance_at(viewport_position(position));
 }

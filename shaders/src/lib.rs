@@ -44,6 +44,7 @@ pub const LIBRARY: &[Module] = modules![
     "lib/exponential_source_sum",
     "lib/noise",
     "lib/numeric_limits",
+    "lib/object_transform",
     "lib/shared_exponent",
     "lib/single_scattering_albedo",
     "lib/tone",

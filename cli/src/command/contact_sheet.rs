@@ -106,13 +106,9 @@ pub fn run(arguments: &ContactSheetArguments) -> Result<(), Failure> {
             supersampling: arguments.supersample,
         })?;
         tiles.push(Tile { picture: drawn.display, caption: caption.clone() });
-        let total: f64 = drawn.timings.iter().map(|(_, time)| time.as_secs_f64()).sum();
-        let passes: Vec<String> = drawn
-            .timings
-            .iter()
-            .map(|(pass, time)| format!("{pass} {:.3} ms", time.as_secs_f64() * 1e3))
-            .collect();
-        progress.suspend(|| say!("{caption}: {:.3} ms ({})", total * 1e3, passes.join(", ")));
+        if let Some(timings) = &drawn.timings {
+            progress.suspend(|| say!("{caption}: {timings}"));
+        }
         progress.inc(1);
     }
     progress.finish_and_clear();

@@ -27,6 +27,7 @@ Examples:
   subsurface render --material marble --size 1920x1080 --kernel interleaved:8 --out bust.exr --aov buffers
   subsurface render --kernel importance-sampled --taps 33 --path fragment --out bust.png
   subsurface render --debug filter-radius --out radii.png
+  subsurface render --timings --out bust.png
   subsurface render --mesh head.glb --camera 0.3,0.1,0.9 --target 0,0.05,0 --light 0.7,-0.5,-0.5,2.5 --out head.png
   subsurface render --mesh head.glb --no-subsurface --out plain.png")]
 pub struct RenderArguments {
@@ -57,6 +58,11 @@ pub struct RenderArguments {
     /// Pixels drawn per pixel of the picture, along each side: 2 or more smooth the silhouettes.
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = value_parser!(u32).range(1..=8))]
     pub supersample: u32,
+    /// Print how long each pass took on the device; the frame is then drawn twice, since the first time compiles shaders.
+    ///
+    /// An adapter without timestamps is timed from submission until it is done.
+    #[arg(long)]
+    pub timings: bool,
     /// The picture: .png (tone-mapped, 8-bit sRGB) or .exr (linear, 32-bit float).
     #[arg(long, value_name = "FILE.png|FILE.exr", value_parser = PictureFile::parse)]
     pub out: PictureFile,
@@ -126,11 +132,18 @@ pub fn run(arguments: &RenderArguments) -> Result<(), Failure> {
                 None => Shown::Subsurface,
             },
             wants_aovs: arguments.aov.is_some(),
-            wants_timings: false,
+            wants_timings: arguments.timings,
             supersampling: arguments.supersample,
         })?
     };
-    save(arguments, &drawn)
+    save(arguments, &drawn)?;
+    if let Some(timings) = &drawn.timings {
+        say!("{}: {timings}", studio.description());
+        if !timings.by_device {
+            say!("the adapter has no timestamps: these times go from submission until it was done");
+        }
+    }
+    Ok(())
 }
 
 /// The material of each object: by its glTF material's name, else `fallback`.

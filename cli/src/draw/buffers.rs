@@ -5,7 +5,7 @@ use subsurface_runtime::{Path, SubsurfaceView, wgpu};
 
 use super::device::Device;
 use super::uploaded::{Precision, Uploaded};
-use super::{beyond_device, subsurface_pass};
+use super::{beyond_device, out_of_order, subsurface_pass};
 use crate::failure::Failure;
 use crate::picture::LinearPicture;
 use crate::scene::camera::Size;
@@ -49,8 +49,6 @@ pub struct Buffers {
 }
 
 /// Runs the subsurface pass alone: the diffused irradiance, background passed through.
-///
-/// `materials` must have been compiled for an output of 32-bit floats, else the pass cannot take its compute path.
 pub fn diffuse(
     buffers: &Buffers,
     materials: &Compilation,
@@ -62,18 +60,12 @@ pub fn diffuse(
     device.checked(|| {
         let uploaded = Uploaded::new(&device, buffers, materials, Precision::Single)?;
         let format = wgpu::TextureFormat::Rgba32Float;
-        let mut pass = subsurface_pass(&device, &materials.parts, format, None, path)?;
-        pass.resize(&device.device, uploaded.size, &uploaded.inputs())
-            .map_err(|error| beyond_device(&error))?;
+        let mut pass = subsurface_pass(&device, &materials.parts, format, path)?;
+        pass.bind(&device.device, &uploaded.inputs()).map_err(|error| beyond_device(&error))?;
+        let output = pass.create_output(&device.device).map_err(out_of_order)?;
         let view = scale.view(buffers.size.height).with_frame_index(frame_index);
-        pass.prepare(&device.queue, &view);
-        let label = Some("diffuse");
-        let mut encoder = device.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label });
-        pass.encode(&mut encoder);
-        device.queue.submit([encoder.finish()]);
-        let Some(output) = pass.output() else {
-            return Err(Failure::new("the pass has no output", "please report this as a defect"));
-        };
+        pass.prepare(&device.queue, &view).map_err(out_of_order)?;
+        device.submit(|encoder| pass.encode(encoder, &output.view))?;
         let texels = device.read(&output.texture)?;
         Ok(LinearPicture {
             size: buffers.size,

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use subsurface_runtime::{Readback, wgpu};
+use subsurface_runtime::{FrameError, Readback, wgpu};
 
 use crate::failure::{Explain, Failure};
 
@@ -90,6 +90,8 @@ impl Device {
         let (device, queue) = adapter
             .request_device(&wgpu::DeviceDescriptor {
                 label: Some("subsurface"),
+                // Times of passes, for those who ask: not every adapter has them.
+                required_features: adapter.features() & wgpu::Features::TIMESTAMP_QUERY,
                 required_limits: wgpu::Limits::default().using_resolution(adapter.limits()),
                 ..Default::default()
             })
@@ -104,6 +106,18 @@ impl Device {
     /// Name and interface of the adapter, for people.
     pub fn description(&self) -> String {
         format!("{} ({})", self.adapter.name, self.adapter.backend)
+    }
+
+    /// Submits what `record` records.
+    pub(crate) fn submit(
+        &self,
+        record: impl FnOnce(&mut wgpu::CommandEncoder) -> Result<(), FrameError>,
+    ) -> Result<(), Failure> {
+        let label = Some("Device commands");
+        let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label });
+        record(&mut encoder).map_err(super::out_of_order)?;
+        self.queue.submit([encoder.finish()]);
+        Ok(())
     }
 
     /// Waits until all that was submitted is done.

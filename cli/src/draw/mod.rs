@@ -9,10 +9,12 @@ mod studio;
 mod uploaded;
 
 pub use buffers::{Buffers, PixelScale, diffuse};
-pub use studio::{Drawn, Frame, Shown, Studio};
+pub use studio::{Drawn, Frame, Shown, Studio, Timings};
 pub use uploaded::{Precision, Uploaded};
 
-use subsurface_runtime::{KernelParts, Path, SubsurfacePass, wgpu};
+use subsurface_runtime::{
+    FrameError, KernelParts, LoadedKernel, Path, SubsurfaceDescriptor, SubsurfacePass, wgpu,
+};
 
 use crate::failure::Failure;
 use device::Device;
@@ -20,20 +22,23 @@ use device::Device;
 /// The most taps that may be asked for.
 pub const LARGEST_TAPS: u32 = 4096;
 
+/// The kernel on the device.
+pub(crate) fn load(device: &Device, kernel: &KernelParts) -> Result<LoadedKernel, Failure> {
+    LoadedKernel::new(&device.device, &device.queue, kernel).map_err(|error| {
+        Failure::new(error.to_string(), "give the set fewer materials, or choose another adapter")
+    })
+}
+
 /// The subsurface pass on a path of the caller's choice, or on the best that the device has.
 pub(crate) fn subsurface_pass(
     device: &Device,
     kernel: &KernelParts,
     format: wgpu::TextureFormat,
-    stencil: Option<wgpu::TextureFormat>,
     path: Option<Path>,
 ) -> Result<SubsurfacePass, Failure> {
-    let device = &device.device;
-    match path {
-        None => Ok(SubsurfacePass::new(device, kernel, format, stencil)),
-        Some(path) => SubsurfacePass::with_path(device, kernel, format, stencil, path)
-            .map_err(|error| Failure::new(error.to_string(), "choose another --path, or none")),
-    }
+    let descriptor = SubsurfaceDescriptor { path, ..SubsurfaceDescriptor::new(format) };
+    SubsurfacePass::new(&device.device, &load(device, kernel)?, &descriptor)
+        .map_err(|error| Failure::new(error.to_string(), "choose another --path, or none"))
 }
 
 /// A size that the device refuses.
@@ -42,4 +47,9 @@ pub(crate) fn beyond_device(error: &impl std::error::Error) -> Failure {
         error.to_string(),
         "make the picture smaller: --size times --supersample, or the buffers that are given",
     )
+}
+
+/// A call that came too early: ours.
+pub(crate) fn out_of_order(error: FrameError) -> Failure {
+    Failure::new(error.to_string(), "please report this as a defect")
 }

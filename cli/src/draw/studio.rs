@@ -1,16 +1,17 @@
 //! Frames of a scene.
 
+use std::fmt;
 use std::time::{Duration, Instant};
 
 use subsurface_codegen::Compilation;
 use subsurface_runtime::{
-    self as runtime, CompositeInputs, CompositePass, CompositeSettings, DebugView, DirectionalLight,
-    DistancePass, Extent, GBuffer, Geometry, Object, Path, Renderer, SubsurfaceView, SurfaceDescriptor,
-    Target, TexturePixels, Vertex, wgpu,
+    self as runtime, CompositeDescriptor, CompositeInputs, CompositePass, CompositeSettings, DebugView,
+    DirectionalLight, DistancePass, Extent, FrameError, GBuffer, Geometry, Object, PassTimer, Path, Renderer,
+    RendererDescriptor, SubsurfaceView, SurfaceDescriptor, Target, TexturePixels, Vertex, wgpu,
 };
 
-use super::device::Device;
-use super::{beyond_device, subsurface_pass};
+use super::device::{Device, DeviceError};
+use super::{beyond_device, load, out_of_order};
 use crate::failure::Failure;
 use crate::picture::{DisplayPicture, LinearPicture};
 use crate::scene::camera::{Camera, Light, Size};
@@ -72,8 +73,29 @@ pub struct Drawn {
     /// Intermediate targets by name, if they were wanted: `irradiance`, `diffused_irradiance`, `specular_transmission`,
     /// `surface_albedo`, `material` (−1: none), `distance_mm` (along the view axis; 0: background).
     pub aovs: Vec<(String, LinearPicture)>,
-    /// How long each pass took, in the order of the frame, if that was wanted; from submission until it was done.
-    pub timings: Vec<(String, Duration)>,
+    /// How long each pass took, if that was wanted.
+    pub timings: Option<Timings>,
+}
+
+/// How long each pass of a frame took.
+#[derive(Clone, Debug)]
+pub struct Timings {
+    /// Names and times, in the order of the frame.
+    pub passes: Vec<(String, Duration)>,
+    /// Whether the device took the times. If it cannot, they go from submission until it was done, and hold what
+    /// submitting costs.
+    pub by_device: bool,
+}
+
+/// `12.3 ms (shadow 1.2 ms, …)`
+impl fmt::Display for Timings {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let milliseconds = |time: &Duration| time.as_secs_f64() * 1e3;
+        let total: f64 = self.passes.iter().map(|(_, time)| milliseconds(time)).sum();
+        let passes: Vec<String> =
+            self.passes.iter().map(|(pass, time)| format!("{pass} {:.3} ms", milliseconds(time))).collect();
+        write!(f, "{total:.3} ms ({})", passes.join(", "))
+    }
 }
 
 /// A device with the passes of one material set.
@@ -82,21 +104,25 @@ pub struct Studio {
     device: Device,
     renderer: Renderer,
     linear: CompositePass,
+    /// `None` on a device that cannot time passes.
+    timer: Option<PassTimer>,
 }
 
 impl Studio {
     /// Opens a device and makes the pipelines; `path` is the subsurface pass's, by default what the device has.
     pub fn open(materials: &Compilation, path: Option<Path>) -> Result<Self, Failure> {
         let device = Device::open()?;
+        let timer = PassTimer::new(&device.device, &device.queue, &Renderer::PASSES).ok();
         let (renderer, linear) = device.checked(|| {
-            let mut renderer = Renderer::new(&device.device, &materials.parts, DISPLAY_FORMAT);
-            if path.is_some() {
-                let (format, stencil) = (GBuffer::COLOUR_FORMAT, Some(GBuffer::DEPTH_STENCIL_FORMAT));
-                renderer.subsurface = subsurface_pass(&device, &materials.parts, format, stencil, path)?;
-            }
-            Ok((renderer, CompositePass::new(&device.device, LINEAR_FORMAT)))
+            let kernel = load(&device, &materials.parts)?;
+            let timer = timer.as_ref();
+            let descriptor = RendererDescriptor { format: DISPLAY_FORMAT, path, timer, ..Default::default() };
+            let renderer = Renderer::new(&device.device, &kernel, &descriptor)
+                .map_err(|error| Failure::new(error.to_string(), "choose another --path, or none"))?;
+            let descriptor = CompositeDescriptor { format: LINEAR_FORMAT, ..Default::default() };
+            Ok((renderer, CompositePass::new(&device.device, &descriptor)))
         })?;
-        Ok(Self { device, renderer, linear })
+        Ok(Self { device, renderer, linear, timer })
     }
 
     /// The adapter that draws, for people.
@@ -106,8 +132,8 @@ impl Studio {
 
     /// Draws a frame.
     pub fn draw(&mut self, frame: &Frame<'_>) -> Result<Drawn, Failure> {
-        let Self { device, renderer, linear } = self;
-        device.checked(|| draw(device, renderer, linear, frame))
+        let Self { device, renderer, linear, timer } = self;
+        device.checked(|| draw(device, renderer, linear, timer.as_ref(), frame))
     }
 }
 
@@ -115,6 +141,7 @@ fn draw(
     device: &Device,
     renderer: &mut Renderer,
     linear: &mut CompositePass,
+    timer: Option<&PassTimer>,
     frame: &Frame<'_>,
 ) -> Result<Drawn, Failure> {
     let factor = frame.supersampling.max(1);
@@ -131,35 +158,46 @@ fn draw(
     renderer
         .subsurface
         .set_debug_view(debug_view)
-        .map_err(|error| Failure::new(error.to_string(), "please report this as a defect"))?;
-    let objects = objects(device, renderer, frame)?;
-    let view = prepare(device, renderer, frame, size);
+        .map_err(|error| Failure::new(error.to_string(), "leave --debug out, or choose another adapter"))?;
+    let objects = objects(device, frame)?;
+    let view = prepare(device, renderer, frame, size)?;
 
     let target =
         |format, label| Target::new(&device.device, size, format, label).map_err(|e| beyond_device(&e));
     let display = target(DISPLAY_FORMAT, "Studio display picture")?;
     let linear_target = target(LINEAR_FORMAT, "Studio linear picture")?;
-    let mut timings = Vec::new();
-    if frame.wants_timings {
-        run_passes(device, renderer, &objects, &display)?;
-        timings = run_passes(device, renderer, &objects, &display)?;
-    } else {
-        submit(device, |encoder| renderer.encode(encoder, &objects, &display.view));
-    }
+    let render = |encoder: &mut wgpu::CommandEncoder| renderer.encode(encoder, &objects, &display.view);
+    let timings = match timer {
+        _ if !frame.wants_timings => {
+            device.submit(render)?;
+            None
+        }
+        Some(timer) => {
+            // The first time compiles shaders.
+            device.submit(render)?;
+            device.submit(|encoder| {
+                render(encoder)?;
+                timer.resolve(encoder);
+                Ok(())
+            })?;
+            let passes = timer.wait(&device.device);
+            let passes = passes.map_err(|error| DeviceError::Lost { reason: error.to_string() })?;
+            Some(Timings { passes, by_device: true })
+        }
+        None => {
+            run_passes(device, renderer, &objects, &display)?;
+            Some(Timings { passes: run_passes(device, renderer, &objects, &display)?, by_device: false })
+        }
+    };
 
-    let (Some(targets), Some(diffused)) = (renderer.targets(), renderer.subsurface.output()) else {
+    let (Some(targets), Some(diffused)) = (renderer.targets(), renderer.diffused()) else {
         return Err(Failure::new("the frame has no targets", "please report this as a defect"));
     };
-    linear.resize(
-        &device.device,
-        &CompositeInputs {
-            diffused: &diffused.view,
-            unscattered: &targets.unscattered.view,
-            surface: &targets.surface.view,
-        },
-    );
-    linear.prepare(&device.queue, &CompositeSettings { tone_map: false, ..Default::default() });
-    submit(device, |encoder| linear.encode(encoder, &linear_target.view));
+    let inputs = CompositeInputs::new(&diffused.view, &targets.unscattered.view, &targets.surface.view);
+    linear.bind(&device.device, &inputs).map_err(|error| beyond_device(&error))?;
+    let settings = CompositeSettings { tone_map: false, ..Default::default() };
+    linear.prepare(&device.queue, &settings).map_err(out_of_order)?;
+    device.submit(|encoder| linear.encode(encoder, &linear_target.view))?;
 
     let (display, linear) = if let Shown::Debug(_) = frame.shown {
         // Colours of the pass's own, not light: they go past the surface albedo and the tone mapping.
@@ -180,7 +218,12 @@ fn draw(
 }
 
 /// Uploads the frame; returns how the subsurface pass sees it.
-fn prepare(device: &Device, renderer: &mut Renderer, frame: &Frame<'_>, size: Extent) -> SubsurfaceView {
+fn prepare(
+    device: &Device,
+    renderer: &mut Renderer,
+    frame: &Frame<'_>,
+    size: Extent,
+) -> Result<SubsurfaceView, Failure> {
     let lights: Vec<DirectionalLight> = frame
         .lights
         .iter()
@@ -201,21 +244,19 @@ fn prepare(device: &Device, renderer: &mut Renderer, frame: &Frame<'_>, size: Ex
         fov_y_radians: frame.camera.fov_y_degrees.to_radians(),
     };
     let frame = runtime::Frame {
-        camera,
         lights: &lights,
         ambient_irradiance: [std::f32::consts::PI * AMBIENT_INTENSITY; 3],
-        bounds,
-        millimetres_per_world_unit: MILLIMETRES_PER_WORLD_UNIT,
         transmission: if frame.shown == Shown::Surface { 0.0 } else { 1.0 },
         taps: if frame.shown == Shown::Surface { Some(0) } else { None },
-        frame_index: 0,
-        composite: CompositeSettings::default(),
+        ..runtime::Frame::new(camera, bounds, MILLIMETRES_PER_WORLD_UNIT)
     };
-    renderer.prepare(&device.queue, &frame);
-    frame.subsurface_view(size)
+    renderer
+        .prepare(&device.queue, &frame)
+        .map_err(|error| Failure::new(error.to_string(), "give fewer --light"))?;
+    Ok(frame.subsurface_view(size))
 }
 
-fn objects(device: &Device, renderer: &Renderer, frame: &Frame<'_>) -> Result<Vec<Object>, Failure> {
+fn objects(device: &Device, frame: &Frame<'_>) -> Result<Vec<Object>, Failure> {
     let mut objects = Vec::with_capacity(frame.scene.objects.len());
     for (object, &material) in frame.scene.objects.iter().zip(frame.material_of_object) {
         let surface = &object.surface;
@@ -237,7 +278,7 @@ fn objects(device: &Device, renderer: &Renderer, frame: &Frame<'_>) -> Result<Ve
             normal_scale: surface.normal_scale,
             ..Default::default()
         };
-        let made = renderer.object(&device.device, &device.queue, geometry, &descriptor);
+        let made = Object::new(&device.device, &device.queue, geometry, &descriptor);
         objects.push(
             made.map_err(|error| {
                 Failure::new(format!("{}: {error}", object.name), "scale its textures down")
@@ -248,14 +289,7 @@ fn objects(device: &Device, renderer: &Renderer, frame: &Frame<'_>) -> Result<Ve
 }
 
 fn pixels(image: &Image) -> TexturePixels<'_> {
-    TexturePixels { width: image.width, height: image.height, rgba: &image.rgba }
-}
-
-fn submit(device: &Device, record: impl FnOnce(&mut wgpu::CommandEncoder)) {
-    let label = Some("Studio");
-    let mut encoder = device.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label });
-    record(&mut encoder);
-    device.queue.submit([encoder.finish()]);
+    TexturePixels::new(image.width, image.height, &image.rgba)
 }
 
 /// Runs the passes one by one, each from submission until it is done.
@@ -265,20 +299,23 @@ fn run_passes(
     objects: &[Object],
     output: &Target,
 ) -> Result<Vec<(String, Duration)>, Failure> {
-    let mut timings = Vec::with_capacity(4);
-    let mut timed = |name: &str, record: &dyn Fn(&mut wgpu::CommandEncoder)| {
+    let (Some(targets), Some(diffused)) = (renderer.targets(), renderer.diffused()) else {
+        return Ok(Vec::new());
+    };
+    let mut times = Vec::with_capacity(4);
+    let mut timed = |record: &dyn Fn(&mut wgpu::CommandEncoder) -> Result<(), FrameError>| {
         device.wait()?;
         let start = Instant::now();
-        submit(device, record);
+        device.submit(record)?;
         device.wait()?;
-        timings.push((name.to_owned(), start.elapsed()));
+        times.push(start.elapsed());
         Ok::<(), Failure>(())
     };
-    timed("shadow", &|encoder| renderer.shadow.encode(encoder, objects))?;
-    timed("G-buffer", &|encoder| renderer.gbuffer.encode(encoder, objects))?;
-    timed("subsurface", &|encoder| renderer.subsurface.encode(encoder))?;
-    timed("composite", &|encoder| renderer.composite.encode(encoder, &output.view))?;
-    Ok(timings)
+    timed(&|encoder| renderer.shadow.encode(encoder, objects))?;
+    timed(&|encoder| renderer.gbuffer.encode(encoder, objects, targets))?;
+    timed(&|encoder| renderer.subsurface.encode(encoder, &diffused.view))?;
+    timed(&|encoder| renderer.composite.encode(encoder, &output.view))?;
+    Ok(Renderer::PASSES.map(str::to_owned).into_iter().zip(times).collect())
 }
 
 fn picture(device: &Device, target: &Target, size: Size) -> Result<LinearPicture, Failure> {
@@ -293,11 +330,11 @@ fn aovs(
     view: &SubsurfaceView,
     size: Size,
 ) -> Result<Vec<(String, LinearPicture)>, Failure> {
-    let extent = Extent::new(size.width, size.height);
-    let mut distance = DistancePass::new(&device.device);
-    distance.resize(&device.device, extent, &targets.depth).map_err(|error| beyond_device(&error))?;
-    distance.prepare(&device.queue, view);
-    submit(device, |encoder| distance.encode(encoder));
+    let mut pass = DistancePass::new(&device.device, &Default::default());
+    pass.bind(&device.device, &targets.depth).map_err(|error| beyond_device(&error))?;
+    let distance = pass.create_output(&device.device).map_err(out_of_order)?;
+    pass.prepare(&device.queue, view).map_err(out_of_order)?;
+    device.submit(|encoder| pass.encode(encoder, &distance.view))?;
     let material = device.read(&targets.surface.texture)?;
     let material =
         LinearPicture { size, pixels: material.into_iter().map(|[.., number]| [number; 3]).collect() };
@@ -311,8 +348,6 @@ fn aovs(
         aovs.push((name.to_owned(), picture(device, target, size)?));
     }
     aovs.push(("material".to_owned(), material));
-    if let Some(target) = distance.output() {
-        aovs.push(("distance_mm".to_owned(), picture(device, target, size)?));
-    }
+    aovs.push(("distance_mm".to_owned(), picture(device, &distance, size)?));
     Ok(aovs)
 }

@@ -87,12 +87,8 @@ impl Uploaded {
 
     /// The textures as a subsurface pass takes them.
     pub fn inputs(&self) -> SubsurfaceInputs<'_> {
-        SubsurfaceInputs {
-            irradiance: &self.irradiance.view,
-            surface: &self.surface.view,
-            depth: &self.distance.view,
-            depth_stencil: None,
-            mean_free_path_scale: self.mean_free_path_scale.as_ref().map(|target| &target.view),
-        }
+        let inputs = SubsurfaceInputs::new(&self.irradiance.view, &self.surface.view, &self.distance.view);
+        let scale = self.mean_free_path_scale.as_ref();
+        scale.map_or(inputs, |scale| inputs.with_mean_free_path_scale(&scale.view))
     }
 }

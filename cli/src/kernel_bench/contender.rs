@@ -4,10 +4,10 @@ use super::case::Case;
 use super::goal::Goal;
 use super::subject::Subject;
 use crate::draw::device::Device;
-use crate::draw::{Uploaded, beyond_device, subsurface_pass};
+use crate::draw::{Uploaded, beyond_device, out_of_order, subsurface_pass};
 use crate::failure::Failure;
 use subsurface_codegen::{Compilation, Estimator, OutputFormat};
-use subsurface_runtime::{Path, SubsurfacePass, wgpu};
+use subsurface_runtime::{FrameError, Path, SubsurfacePass, Target, wgpu};
 
 /// What a contender is given.
 #[derive(Clone, Copy, Debug)]
@@ -55,7 +55,10 @@ pub enum Entry {
 /// A contender, ready to run.
 pub trait Run {
     /// Records one frame. Submits nothing.
-    fn encode(&self, encoder: &mut wgpu::CommandEncoder);
+    ///
+    /// # Errors
+    /// A pass that is not ready, which is a defect.
+    fn encode(&self, encoder: &mut wgpu::CommandEncoder) -> Result<(), FrameError>;
 
     /// Where the diffused irradiance lies after a frame: `Rgba16Float` or `Rgba32Float`.
     fn output(&self) -> &wgpu::Texture;
@@ -116,29 +119,26 @@ pub(super) fn kernel_run(
         OutputFormat::Rgba32Float => wgpu::TextureFormat::Rgba32Float,
         _ => wgpu::TextureFormat::Rgba16Float,
     };
-    let mut pass = subsurface_pass(stage.device, &materials.parts, format, None, stage.path)?;
-    let textures = stage.textures;
-    pass.resize(&stage.device.device, textures.size, &textures.inputs())
-        .map_err(|error| beyond_device(&error))?;
-    pass.prepare(&stage.device.queue, &stage.case.view());
-    match pass.output().map(|target| target.texture.clone()) {
-        Some(output) => Ok(KernelRun { pass, output }),
-        None => Err(Failure::new("the pass has no output", "please report this as a defect")),
-    }
+    let mut pass = subsurface_pass(stage.device, &materials.parts, format, stage.path)?;
+    let device = stage.device;
+    pass.bind(&device.device, &stage.textures.inputs()).map_err(|error| beyond_device(&error))?;
+    pass.prepare(&device.queue, &stage.case.view()).map_err(out_of_order)?;
+    let output = pass.create_output(&device.device).map_err(out_of_order)?;
+    Ok(KernelRun { pass, output })
 }
 
 struct KernelRun {
     pass: SubsurfacePass,
-    output: wgpu::Texture,
+    output: Target,
 }
 
 impl Run for KernelRun {
-    fn encode(&self, encoder: &mut wgpu::CommandEncoder) {
-        self.pass.encode(encoder);
+    fn encode(&self, encoder: &mut wgpu::CommandEncoder) -> Result<(), FrameError> {
+        self.pass.encode(encoder, &self.output.view)
     }
 
     fn output(&self) -> &wgpu::Texture {
-        &self.output
+        &self.output.texture
     }
 
     fn path(&self) -> Path {

@@ -3,6 +3,7 @@
 use super::contender::Run;
 use super::report::Time;
 use crate::draw::device::Device;
+use crate::draw::out_of_order;
 use crate::failure::Failure;
 use std::time::Instant;
 use subsurface_runtime::wgpu;
@@ -24,7 +25,7 @@ fn sample(device: &Device, run: &dyn Run, frames: u32) -> Result<f64, Failure> {
     let label = Some("kernel bench");
     let mut encoder = device.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label });
     for _ in 0..frames {
-        run.encode(&mut encoder);
+        run.encode(&mut encoder).map_err(out_of_order)?;
     }
     let commands = encoder.finish();
     device.wait()?;

@@ -70,9 +70,14 @@ pub(crate) fn set_tokens(
             pub const ALL: [Self; #count] = [#(Self::#variants),*];
             /// Names as in the material files, by number.
             pub const NAMES: [&'static str; #count] = [#(#names),*];
-            /// The number in the parameter table.
+            /// The number in the parameter table of [`kernel`].
             pub const fn number(self) -> u32 {
                 self as u32
+            }
+            /// The number in another kernel, such as one that was compiled from edited materials while the program runs;
+            /// `None` if that holds no material of this name.
+            pub fn number_in(self, kernel: &#runtime::LoadedKernel) -> Option<u32> {
+                kernel.material_number(self.name())
             }
             /// The name as in the material files.
             pub const fn name(self) -> &'static str {
@@ -90,6 +95,26 @@ pub(crate) fn set_tokens(
             /// The material of that name.
             pub fn from_name(name: &str) -> Option<Self> {
                 Self::ALL.into_iter().find(|material| material.name() == name)
+            }
+        }
+        /// The name as in the material files.
+        impl ::core::fmt::Display for Material {
+            fn fmt(&self, f: &mut ::core::fmt::Formatter<'_>) -> ::core::fmt::Result {
+                f.pad(self.name())
+            }
+        }
+        /// By the name as in the material files.
+        impl ::core::str::FromStr for Material {
+            type Err = #runtime::UnknownMaterial;
+            fn from_str(name: &str) -> Result<Self, Self::Err> {
+                Self::from_name(name).ok_or_else(|| #runtime::UnknownMaterial::Name(name.into()))
+            }
+        }
+        /// By the number in the parameter table.
+        impl TryFrom<u32> for Material {
+            type Error = #runtime::UnknownMaterial;
+            fn try_from(number: u32) -> Result<Self, Self::Error> {
+                Self::ALL.get(number as usize).copied().ok_or(#runtime::UnknownMaterial::Number(number))
             }
         }
         /// SHA-256 of what the kernel was generated from.

@@ -21,7 +21,7 @@ use super::{Compiler, DEFECT, KernelModule, ROW, Wanted};
 /// # Errors
 /// A shader that is not valid; no material is involved.
 pub fn runtime_bindings() -> Result<String, Report> {
-    let paths = Paths { wgpu: quote!(::wgpu), bytemuck: quote!(::bytemuck), runtime: quote!(crate) };
+    let paths = Paths { wgpu: quote!(crate::wgpu), bytemuck: quote!(::bytemuck), runtime: quote!(crate) };
     let mut tokens = TokenStream::new();
     for (name, roots) in [
         ("shadow", &["shadow_vertex"][..]),

@@ -1,9 +1,52 @@
 //! Pass 4: radiance, tone mapping, sRGB.
 
 use crate::bindings::composite::{self, BindGroup0, ENTRY_COMPOSITE_FRAGMENT, ENTRY_COMPOSITE_VERTEX, WGSL};
+use crate::extent::Extent;
+use crate::input::{BindError, Holds, Input};
+use crate::label::Label;
+use crate::output::{FrameError, Output, Progress};
+use crate::timestamps::Timestamps;
+use crate::wgpu;
 
-/// What the pass reads. All views are of one size.
+use super::covering_pipeline::CoveringPipeline;
+use super::{cleared, uniform_buffer};
+
+const NAME: &str = "CompositePass";
+
+/// How a [`CompositePass`] is made.
+///
+/// ```
+/// use subsurface_runtime::{CompositeDescriptor, wgpu};
+///
+/// let descriptor = CompositeDescriptor { label: Some("screen"), ..Default::default() };
+/// assert_eq!(descriptor.format, wgpu::TextureFormat::Rgba8UnormSrgb);
+/// ```
+#[derive(Clone, Debug)]
+pub struct CompositeDescriptor<'a> {
+    /// What the labels of its objects begin with; `None`, the default, for `CompositePass`.
+    pub label: Option<&'a str>,
+    /// Format of the picture; by default `Rgba8UnormSrgb`.
+    pub format: wgpu::TextureFormat,
+    /// Where compiled pipelines are kept; by default nowhere.
+    pub pipeline_cache: Option<&'a wgpu::PipelineCache>,
+    /// Where the pass writes its times; by default nowhere.
+    pub timestamps: Option<Timestamps>,
+}
+
+impl Default for CompositeDescriptor<'_> {
+    fn default() -> Self {
+        Self {
+            label: None,
+            format: wgpu::TextureFormat::Rgba8UnormSrgb,
+            pipeline_cache: None,
+            timestamps: None,
+        }
+    }
+}
+
+/// What the pass reads. All views have one size.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct CompositeInputs<'a> {
     /// Diffused irradiance, linear RGB.
     pub diffused: &'a wgpu::TextureView,
@@ -13,15 +56,34 @@ pub struct CompositeInputs<'a> {
     pub surface: &'a wgpu::TextureView,
 }
 
+impl<'a> CompositeInputs<'a> {
+    /// All that the pass reads.
+    pub const fn new(
+        diffused: &'a wgpu::TextureView,
+        unscattered: &'a wgpu::TextureView,
+        surface: &'a wgpu::TextureView,
+    ) -> Self {
+        Self { diffused, unscattered, surface }
+    }
+}
+
 /// How radiance becomes a picture.
+///
+/// ```
+/// use subsurface_runtime::CompositeSettings;
+///
+/// let linear = CompositeSettings { tone_map: false, ..Default::default() };
+/// assert_eq!(linear.exposure, 1.0);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CompositeSettings {
-    /// Factor on all radiance before tone mapping.
+    /// Factor on all radiance before tone mapping; by default 1.
     pub exposure: f32,
     /// Tone map to [0, 1] (Khronos PBR Neutral) and, where the target does not do it, encode as sRGB. Off: linear
-    /// radiance.
+    /// radiance. On by default.
     pub tone_map: bool,
-    /// Radiance of the background at the top and at the bottom, linear red, green, blue.
+    /// Radiance of the background at the top and at the bottom, linear red, green, blue; by default dark greys,
+    /// (0.035, 0.037, 0.042) to (0.012, 0.012, 0.014).
     pub background: [[f32; 3]; 2],
 }
 
@@ -32,78 +94,119 @@ impl Default for CompositeSettings {
 }
 
 /// Multiplies with the surface albedo, adds what was not scattered and maps to the display.
+///
+/// The picture's alpha is that of `unscattered`: 1 on geometry and 0 on the background, whose colour is written all the
+/// same. Colours are not multiplied by it.
 #[derive(Debug)]
 pub struct CompositePass {
+    label: Label,
     pipeline: wgpu::RenderPipeline,
     layout: wgpu::BindGroupLayout,
     uniform: wgpu::Buffer,
-    bind_group: Option<wgpu::BindGroup>,
     format: wgpu::TextureFormat,
+    timestamps: Option<Timestamps>,
+    bound: Option<(Extent, wgpu::BindGroup)>,
+    progress: Progress,
 }
 
 impl CompositePass {
-    /// Pipeline and layout for an output of `format`.
-    pub fn new(device: &wgpu::Device, format: wgpu::TextureFormat) -> Self {
-        let layout = BindGroup0::layout(device, "CompositePass layout");
+    /// Pipeline and layout.
+    pub fn new(device: &wgpu::Device, descriptor: &CompositeDescriptor<'_>) -> Self {
+        let label = Label::new(descriptor.label, NAME);
+        let layout = BindGroup0::layout(device, &label.of("layout"));
         let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: Some("CompositePass module"),
+            label: Some(&label.of("module")),
             source: wgpu::ShaderSource::Wgsl(WGSL.into()),
         });
-        let entries = (ENTRY_COMPOSITE_VERTEX, ENTRY_COMPOSITE_FRAGMENT);
-        let pipeline = super::covering_pipeline(
-            device,
-            "CompositePass pipeline",
-            &module,
-            entries,
-            &[Some(&layout)],
-            &[Some(format.into())],
-            None,
-        );
-        let uniform = device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some("CompositePass settings"),
-            size: size_of::<composite::CompositeSettings>() as u64,
-            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
-            mapped_at_creation: false,
-        });
-        Self { pipeline, layout, uniform, bind_group: None, format }
+        let pipeline = CoveringPipeline {
+            label: &label.of("pipeline"),
+            module: &module,
+            entries: (ENTRY_COMPOSITE_VERTEX, ENTRY_COMPOSITE_FRAGMENT),
+            constants: &[],
+            bind_group_layouts: &[Some(&layout)],
+            targets: &[Some(descriptor.format.into())],
+            depth_stencil: None,
+            cache: descriptor.pipeline_cache,
+        }
+        .create(device);
+        let uniform = uniform_buffer::<composite::CompositeSettings>(device, &label.of("settings"));
+        Self {
+            label,
+            pipeline,
+            layout,
+            uniform,
+            format: descriptor.format,
+            timestamps: descriptor.timestamps.clone(),
+            bound: None,
+            progress: Progress::default(),
+        }
     }
 
     /// Binds the inputs. Call it again when a view is replaced; the pass has no target of its own.
-    pub fn resize(&mut self, device: &wgpu::Device, inputs: &CompositeInputs<'_>) {
+    ///
+    /// # Errors
+    /// Inputs of different sizes, or of formats that the pass cannot read. The old ones stay.
+    pub fn bind(&mut self, device: &wgpu::Device, inputs: &CompositeInputs<'_>) -> Result<(), BindError> {
+        let CompositeInputs { diffused, unscattered, surface } = *inputs;
+        let first = Input::new("diffused", diffused).check(device, Holds::Colours)?;
+        for (name, view) in [("unscattered", unscattered), ("surface", surface)] {
+            Input::new(name, view).check(device, Holds::Colours)?.as_large_as(first)?;
+        }
         let bind_group = BindGroup0 {
             composite_settings: self.uniform.as_entire_buffer_binding(),
-            diffused_texture: inputs.diffused,
-            unscattered_texture: inputs.unscattered,
-            surface_texture: inputs.surface,
+            diffused_texture: diffused,
+            unscattered_texture: unscattered,
+            surface_texture: surface,
         }
-        .create(device, &self.layout, "CompositePass bind group");
-        self.bind_group = Some(bind_group);
+        .create(device, &self.layout, &self.label.of("bind group"));
+        self.bound = Some((first.size(), bind_group));
+        self.progress = Progress::Bound;
+        Ok(())
     }
 
     /// Uploads this frame's settings.
-    pub fn prepare(&mut self, queue: &wgpu::Queue, settings: &CompositeSettings) {
+    ///
+    /// # Errors
+    /// Nothing is bound.
+    pub fn prepare(&mut self, queue: &wgpu::Queue, settings: &CompositeSettings) -> Result<(), FrameError> {
+        self.progress.is_bound(NAME)?;
         let encode = settings.tone_map && !self.format.is_srgb();
         let uniform = composite::CompositeSettings {
             background_top: settings.background[0],
-            background_bottom: settings.background[1],
             exposure: settings.exposure,
+            background_bottom: settings.background[1],
             tone_map: u32::from(settings.tone_map),
             encode_srgb: u32::from(encode),
-            ..bytemuck::Zeroable::zeroed()
+            padding_36: [0; 12],
         };
         queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&uniform));
+        self.progress = Progress::Prepared;
+        Ok(())
     }
 
-    /// Records the pass into `output`, which has the inputs' size and the format given to [`new`](Self::new).
-    pub fn encode(&self, encoder: &mut wgpu::CommandEncoder, output: &wgpu::TextureView) {
-        let Some(bind_group) = &self.bind_group else { return };
+    /// Records the pass into `output`, which has the inputs' size and the descriptor's format.
+    ///
+    /// # Errors
+    /// A pass that is not bound and prepared, or an output that it cannot write to.
+    pub fn encode(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        output: &wgpu::TextureView,
+    ) -> Result<(), FrameError> {
+        self.progress.is_prepared(NAME)?;
+        let Some((size, bind_group)) = &self.bound else { return Err(FrameError::NotBound { pass: NAME }) };
+        let usage = wgpu::TextureUsages::RENDER_ATTACHMENT;
+        Output { pass: NAME, size: *size, format: self.format, usage }.check(output)?;
+        let timestamps = self.timestamps.as_ref();
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some("CompositePass"),
-            color_attachments: &[super::cleared(output, wgpu::Color::BLACK)],
+            label: Some(self.label.as_str()),
+            color_attachments: &[cleared(output, wgpu::Color::BLACK)],
+            timestamp_writes: timestamps.and_then(|timestamps| timestamps.of_render_pass(true, true)),
             ..Default::default()
         });
         pass.set_pipeline(&self.pipeline);
         pass.set_bind_group(0, bind_group, &[]);
         pass.draw(0..3, 0..1);
+        Ok(())
     }
 }

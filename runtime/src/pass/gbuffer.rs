@@ -4,180 +4,213 @@ use crate::bindings::kernel::{
     BindGroup3, ENTRY_GBUFFER_FRAGMENT, ENTRY_GBUFFER_VERTEX, GBufferFrame, GBufferVertex, GbufferBindGroup2,
 };
 use crate::camera::{Bounds, Camera};
-use crate::error::{SizeError, TexelsError};
-use crate::geometry::{Geometry, Object, SurfaceDescriptor};
-use crate::light::{DirectionalLight, LIGHT_CAPACITY};
-use crate::material_table::MaterialTable;
-use crate::pass::cleared;
-use crate::pass::shadow::ShadowPass;
-use crate::target::{Extent, GBuffer, TRANSLUCENT_STENCIL};
-use subsurface_kernel::KernelParts;
+use crate::extent::Extent;
+use crate::gbuffer::{GBuffer, TRANSLUCENT_STENCIL};
+use crate::input::{BindError, Holds, Input};
+use crate::label::Label;
+use crate::light::{DirectionalLight, LIGHT_CAPACITY, check_count};
+use crate::loaded_kernel::LoadedKernel;
+use crate::object::Object;
+use crate::output::{FrameError, Output, Progress};
+use crate::timestamps::Timestamps;
+use crate::wgpu;
+use crate::wgpu_version::vertex_buffer;
+
+use super::{PassError, cleared, uniform_buffer};
+
+const NAME: &str = "GBufferPass";
+
+/// How a [`GBufferPass`] is made.
+#[derive(Clone, Debug, Default)]
+pub struct GBufferDescriptor<'a> {
+    /// What the labels of its objects begin with; `None`, the default, for `GBufferPass`.
+    pub label: Option<&'a str>,
+    /// Where compiled pipelines are kept; by default nowhere.
+    pub pipeline_cache: Option<&'a wgpu::PipelineCache>,
+    /// Where the pass writes its times; by default nowhere.
+    pub timestamps: Option<Timestamps>,
+}
 
 /// Camera and lights of one frame.
+///
+/// ```
+/// use subsurface_runtime::{Bounds, Camera, Extent, GBufferView};
+///
+/// let (camera, bounds) = (Camera::default(), Bounds::new([0.0; 3], 0.2));
+/// let view = GBufferView { ambient_irradiance: [0.1; 3], ..GBufferView::new(Extent::new(1280, 720), &camera, bounds, 1000.0) };
+/// assert_eq!((view.lights.len(), view.transmission), (0, 1.0));
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct GBufferView<'a> {
+    /// Size of the targets.
+    pub size: Extent,
     /// The camera.
     pub camera: &'a Camera,
-    /// Directional lights; those beyond [`LIGHT_CAPACITY`] are left out.
+    /// Directional lights, [`LIGHT_CAPACITY`] at most; by default none.
     pub lights: &'a [DirectionalLight],
-    /// Irradiance that comes from everywhere alike, linear red, green, blue.
+    /// Irradiance that comes from everywhere alike, linear red, green, blue; by default 0.
     pub ambient_irradiance: [f32; 3],
-    /// Factor on every material's transmission: 1, or 0 for none.
+    /// Factor on every material's transmission: 1, the default, or 0 for none.
     pub transmission: f32,
     /// A sphere around all objects.
     pub bounds: Bounds,
-    /// Millimetres that a world unit has: 1000 for metres.
+    /// Millimetres that a world unit has: 1000 for metres. There is no default, because a wrong scale often looks
+    /// plausible.
     pub millimetres_per_world_unit: f32,
 }
 
-/// Shades all objects into the [`GBuffer`].
+impl<'a> GBufferView<'a> {
+    /// A view without lights.
+    pub const fn new(
+        size: Extent,
+        camera: &'a Camera,
+        bounds: Bounds,
+        millimetres_per_world_unit: f32,
+    ) -> Self {
+        Self {
+            size,
+            camera,
+            lights: &[],
+            ambient_irradiance: [0.0; 3],
+            transmission: 1.0,
+            bounds,
+            millimetres_per_world_unit,
+        }
+    }
+}
+
+/// Shades all objects into a [`GBuffer`].
 #[derive(Debug)]
 pub struct GBufferPass {
+    label: Label,
+    pipeline_cache: Option<wgpu::PipelineCache>,
+    timestamps: Option<Timestamps>,
+    kernel: LoadedKernel,
     pipeline: wgpu::RenderPipeline,
-    table: MaterialTable,
     uniform: wgpu::Buffer,
+    comparison: wgpu::Sampler,
+    layout: wgpu::BindGroupLayout,
+    bound: Option<Bound>,
+    /// Size of the frame that is prepared.
+    size: Extent,
+    progress: Progress,
+}
+
+#[derive(Debug)]
+struct Bound {
     bind_group: wgpu::BindGroup,
-    object_layout: wgpu::BindGroupLayout,
     shadow_map_size: u32,
-    targets: Option<(Extent, GBuffer)>,
 }
 
 impl GBufferPass {
-    /// Pipeline and bindings; `kernel` must hold the G-buffer's entry points (it does unless its compiler was told to
-    /// leave them out).
-    pub fn new(device: &wgpu::Device, kernel: &KernelParts, shadow: &ShadowPass) -> Self {
-        let table = MaterialTable::new(device, kernel);
-        let frame_layout = GbufferBindGroup2::layout(device, "GBufferPass frame layout");
-        let object_layout = BindGroup3::layout(device, "GBufferPass object layout");
-        let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label: Some("GBufferPass pipeline layout"),
-            bind_group_layouts: &[Some(&table.layout), None, Some(&frame_layout), Some(&object_layout)],
-            immediate_size: 0,
-        });
-        let module = crate::material_table::shader_module(device, kernel);
-        let mark = wgpu::StencilFaceState {
-            compare: wgpu::CompareFunction::Always,
-            fail_op: wgpu::StencilOperation::Keep,
-            depth_fail_op: wgpu::StencilOperation::Keep,
-            pass_op: wgpu::StencilOperation::Replace,
-        };
-        let colour = || Some(wgpu::ColorTargetState::from(GBuffer::COLOUR_FORMAT));
-        let pipeline = device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-            label: Some("GBufferPass pipeline"),
-            layout: Some(&pipeline_layout),
-            vertex: wgpu::VertexState {
-                module: &module,
-                entry_point: Some(ENTRY_GBUFFER_VERTEX),
-                compilation_options: Default::default(),
-                buffers: &[Some(GBufferVertex::LAYOUT)],
-            },
-            // Both sides are drawn: scans have open borders, and a hole would show the background.
-            primitive: wgpu::PrimitiveState::default(),
-            depth_stencil: Some(wgpu::DepthStencilState {
-                format: GBuffer::DEPTH_STENCIL_FORMAT,
-                depth_write_enabled: Some(true),
-                depth_compare: Some(wgpu::CompareFunction::Less),
-                stencil: wgpu::StencilState {
-                    front: mark,
-                    back: mark,
-                    read_mask: TRANSLUCENT_STENCIL,
-                    write_mask: TRANSLUCENT_STENCIL,
-                },
-                bias: Default::default(),
-            }),
-            multisample: Default::default(),
-            fragment: Some(wgpu::FragmentState {
-                module: &module,
-                entry_point: Some(ENTRY_GBUFFER_FRAGMENT),
-                compilation_options: Default::default(),
-                targets: &[colour(), colour(), colour()],
-            }),
-            multiview_mask: None,
-            cache: None,
-        });
-        let uniform = device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some("GBufferPass frame"),
-            size: size_of::<GBufferFrame>() as u64,
-            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
-            mapped_at_creation: false,
-        });
+    /// Pipeline and layouts.
+    ///
+    /// # Errors
+    /// A kernel that was compiled without the G-buffer's entry points.
+    pub fn new(
+        device: &wgpu::Device,
+        kernel: &LoadedKernel,
+        descriptor: &GBufferDescriptor<'_>,
+    ) -> Result<Self, PassError> {
+        let label = Label::new(descriptor.label, NAME);
+        let pipeline = pipeline(device, kernel, &label, descriptor.pipeline_cache)?;
+        let layout = GbufferBindGroup2::layout(device, &label.of("frame layout"));
+        let uniform = uniform_buffer::<GBufferFrame>(device, &label.of("frame"));
         let comparison = device.create_sampler(&wgpu::SamplerDescriptor {
-            label: Some("GBufferPass shadow comparison"),
+            label: Some(&label.of("shadow comparison")),
             mag_filter: wgpu::FilterMode::Linear,
             min_filter: wgpu::FilterMode::Linear,
             compare: Some(wgpu::CompareFunction::LessEqual),
             ..Default::default()
         });
-        let bind_group = GbufferBindGroup2 {
-            frame: uniform.as_entire_buffer_binding(),
-            shadow_maps: shadow.maps(),
-            shadow_comparison: &comparison,
-        }
-        .create(device, &frame_layout, "GBufferPass frame bind group");
-        Self {
+        Ok(Self {
+            label,
+            pipeline_cache: descriptor.pipeline_cache.cloned(),
+            timestamps: descriptor.timestamps.clone(),
+            kernel: kernel.clone(),
             pipeline,
-            table,
             uniform,
-            bind_group,
-            object_layout,
-            shadow_map_size: shadow.map_size(),
-            targets: None,
-        }
+            comparison,
+            layout,
+            bound: None,
+            size: Extent::new(0, 0),
+            progress: Progress::default(),
+        })
     }
 
-    /// An object that this pass can draw.
+    /// Takes another kernel; what is bound and prepared stays. The material numbers of objects are those of the new
+    /// kernel from now on: [`Object::set_material`] sets them.
     ///
     /// # Errors
-    /// Textures whose bytes do not fit their size, or whose size is beyond the device's limit.
-    pub fn object(
-        &self,
-        device: &wgpu::Device,
-        queue: &wgpu::Queue,
-        geometry: Geometry,
-        surface: &SurfaceDescriptor<'_>,
-    ) -> Result<Object, TexelsError> {
-        Object::new(device, queue, &self.object_layout, geometry, surface)
-    }
-
-    /// Makes the targets anew if `size` changed.
-    ///
-    /// # Errors
-    /// A size of 0 or beyond the device's limit; the old targets stay.
-    pub fn resize(&mut self, device: &wgpu::Device, size: Extent) -> Result<(), SizeError> {
-        if self.targets.as_ref().is_none_or(|(old, _)| *old != size) {
-            self.targets = Some((size, GBuffer::new(device, size)?));
-        }
+    /// As of [`new`](Self::new); the old kernel stays.
+    pub fn set_kernel(&mut self, device: &wgpu::Device, kernel: &LoadedKernel) -> Result<(), PassError> {
+        self.pipeline = pipeline(device, kernel, &self.label, self.pipeline_cache.as_ref())?;
+        self.kernel = kernel.clone();
         Ok(())
     }
 
-    /// The targets; `None` before the first [`resize`](Self::resize).
-    pub fn targets(&self) -> Option<&GBuffer> {
-        self.targets.as_ref().map(|(_, targets)| targets)
+    /// Binds the shadow maps: [`ShadowPass::maps`](crate::ShadowPass::maps), or as many maps of a depth format in one
+    /// array.
+    ///
+    /// # Errors
+    /// A texture that holds no depth. The old one stays.
+    pub fn bind(&mut self, device: &wgpu::Device, shadow_maps: &wgpu::TextureView) -> Result<(), BindError> {
+        let maps = Input::new("shadow_maps", shadow_maps).check(device, Holds::Depth)?;
+        let bind_group = GbufferBindGroup2 {
+            frame: self.uniform.as_entire_buffer_binding(),
+            shadow_maps,
+            shadow_comparison: &self.comparison,
+        }
+        .create(device, &self.layout, &self.label.of("frame bind group"));
+        self.bound = Some(Bound { bind_group, shadow_map_size: maps.size().width });
+        self.progress = Progress::Bound;
+        Ok(())
     }
 
     /// Uploads this frame's camera and lights.
-    pub fn prepare(&mut self, queue: &wgpu::Queue, view: &GBufferView<'_>) {
-        self.table.prepare(queue);
-        let Some((size, _)) = &self.targets else { return };
-        let aspect = size.width as f32 / size.height as f32;
-        let projection = glam::Mat4::from_cols_array_2d(&view.camera.projection(aspect, &view.bounds));
-        let mut frame: GBufferFrame = bytemuck::Zeroable::zeroed();
-        frame.clip_from_world = (projection * view.camera.view_from_world()).to_cols_array_2d();
-        frame.camera_position = view.camera.position;
-        frame.ambient_irradiance = view.ambient_irradiance;
-        frame.transmission = view.transmission;
-        frame.light_count = view.lights.len().min(LIGHT_CAPACITY) as u32;
-        for (slot, light) in frame.lights.iter_mut().zip(view.lights) {
-            *slot = light.uniform(&view.bounds, self.shadow_map_size, view.millimetres_per_world_unit);
+    ///
+    /// # Errors
+    /// Nothing is bound, or more than [`LIGHT_CAPACITY`] lights.
+    pub fn prepare(&mut self, queue: &wgpu::Queue, view: &GBufferView<'_>) -> Result<(), FrameError> {
+        let Some(bound) = &self.bound else { return Err(FrameError::NotBound { pass: NAME }) };
+        check_count(view.lights)?;
+        let projection =
+            glam::Mat4::from_cols_array_2d(&view.camera.projection(view.size.aspect(), &view.bounds));
+        let mut lights: [_; LIGHT_CAPACITY] = bytemuck::Zeroable::zeroed();
+        for (slot, light) in lights.iter_mut().zip(view.lights) {
+            *slot = light.uniform(&view.bounds, bound.shadow_map_size, view.millimetres_per_world_unit);
         }
+        let frame = GBufferFrame {
+            clip_from_world: (projection * view.camera.view_from_world()).to_cols_array_2d(),
+            camera_position: view.camera.position,
+            light_count: view.lights.len() as u32,
+            ambient_irradiance: view.ambient_irradiance,
+            transmission: view.transmission,
+            lights,
+        };
         queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&frame));
+        self.size = view.size;
+        self.progress = Progress::Prepared;
+        Ok(())
     }
 
-    /// Records the pass; before the first [`resize`](Self::resize) there is nothing to draw into.
-    pub fn encode(&self, encoder: &mut wgpu::CommandEncoder, objects: &[Object]) {
-        let Some((_, targets)) = &self.targets else { return };
+    /// Records the pass into `targets`, which have the view's size.
+    ///
+    /// # Errors
+    /// A pass that is not bound and prepared, or targets of another size than the view's.
+    pub fn encode(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        objects: &[Object],
+        targets: &GBuffer,
+    ) -> Result<(), FrameError> {
+        self.progress.is_prepared(NAME)?;
+        let Some(bound) = &self.bound else { return Err(FrameError::NotBound { pass: NAME }) };
+        let (format, usage) = (GBuffer::COLOUR_FORMAT, wgpu::TextureUsages::RENDER_ATTACHMENT);
+        Output { pass: NAME, size: self.size, format, usage }.check(&targets.irradiance.view)?;
+        let timestamps = self.timestamps.as_ref();
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some("GBufferPass"),
+            label: Some(self.label.as_str()),
             color_attachments: &[
                 cleared(&targets.irradiance.view, wgpu::Color::TRANSPARENT),
                 cleared(&targets.unscattered.view, wgpu::Color::TRANSPARENT),
@@ -195,17 +228,82 @@ impl GBufferPass {
                     store: wgpu::StoreOp::Store,
                 }),
             }),
+            timestamp_writes: timestamps.and_then(|timestamps| timestamps.of_render_pass(true, true)),
             ..Default::default()
         });
         pass.set_pipeline(&self.pipeline);
-        pass.set_bind_group(0, &self.table.bind_group, &[]);
-        pass.set_bind_group(GbufferBindGroup2::INDEX, &self.bind_group, &[]);
+        pass.set_bind_group(0, self.kernel.bind_group(), &[]);
+        pass.set_bind_group(GbufferBindGroup2::INDEX, &bound.bind_group, &[]);
         for object in objects {
-            pass.set_stencil_reference(if object.translucent { TRANSLUCENT_STENCIL } else { 0 });
-            pass.set_bind_group(BindGroup3::INDEX, &object.bind_group, &[]);
-            pass.set_vertex_buffer(0, object.geometry.vertices.slice(..));
-            pass.set_index_buffer(object.geometry.indices.slice(..), wgpu::IndexFormat::Uint32);
-            pass.draw_indexed(0..object.geometry.index_count, 0, 0..1);
+            pass.set_stencil_reference(if object.is_translucent() { TRANSLUCENT_STENCIL } else { 0 });
+            pass.set_bind_group(BindGroup3::INDEX, &object.surface_group, &[]);
+            object.geometry.draw(&mut pass);
         }
+        Ok(())
     }
+}
+
+fn pipeline(
+    device: &wgpu::Device,
+    kernel: &LoadedKernel,
+    label: &Label,
+    cache: Option<&wgpu::PipelineCache>,
+) -> Result<wgpu::RenderPipeline, PassError> {
+    if !kernel.module().has_gbuffer() {
+        return Err(PassError::NoGBuffer);
+    }
+    // Equal layouts are one to wgpu: bind groups of any of them suit the pipeline.
+    let frame_layout = GbufferBindGroup2::layout(device, &label.of("frame layout"));
+    let object_layout = BindGroup3::layout(device, &label.of("object layout"));
+    let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label: Some(&label.of("pipeline layout")),
+        bind_group_layouts: &[
+            Some(kernel.bind_group_layout()),
+            None,
+            Some(&frame_layout),
+            Some(&object_layout),
+        ],
+        immediate_size: 0,
+    });
+    let mark = wgpu::StencilFaceState {
+        compare: wgpu::CompareFunction::Always,
+        fail_op: wgpu::StencilOperation::Keep,
+        depth_fail_op: wgpu::StencilOperation::Keep,
+        pass_op: wgpu::StencilOperation::Replace,
+    };
+    let colour = || Some(wgpu::ColorTargetState::from(GBuffer::COLOUR_FORMAT));
+    let module = kernel.shader_module();
+    Ok(device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some(&label.of("pipeline")),
+        layout: Some(&layout),
+        vertex: wgpu::VertexState {
+            module,
+            entry_point: Some(ENTRY_GBUFFER_VERTEX),
+            compilation_options: Default::default(),
+            buffers: &[vertex_buffer(GBufferVertex::LAYOUT)],
+        },
+        // Both sides are drawn: scans have open borders, and a hole would show the background.
+        primitive: wgpu::PrimitiveState::default(),
+        depth_stencil: Some(wgpu::DepthStencilState {
+            format: GBuffer::DEPTH_STENCIL_FORMAT,
+            depth_write_enabled: Some(true),
+            depth_compare: Some(wgpu::CompareFunction::Less),
+            stencil: wgpu::StencilState {
+                front: mark,
+                back: mark,
+                read_mask: TRANSLUCENT_STENCIL,
+                write_mask: TRANSLUCENT_STENCIL,
+            },
+            bias: Default::default(),
+        }),
+        multisample: Default::default(),
+        fragment: Some(wgpu::FragmentState {
+            module,
+            entry_point: Some(ENTRY_GBUFFER_FRAGMENT),
+            compilation_options: Default::default(),
+            targets: &[colour(), colour(), colour()],
+        }),
+        multiview_mask: None,
+        cache,
+    }))
 }

@@ -1,55 +1,41 @@
 //! The four passes, and one beside them.
 
 pub mod composite;
+mod covering_pipeline;
 pub mod distance;
 pub mod gbuffer;
+mod pass_error;
 pub mod shadow;
 pub mod subsurface;
 
-/// An attachment that is cleared and kept.
+pub use pass_error::PassError;
+
+use crate::wgpu;
+
+/// An attachment that is kept, and cleared before.
 fn cleared(view: &wgpu::TextureView, colour: wgpu::Color) -> Option<wgpu::RenderPassColorAttachment<'_>> {
+    attachment(view, wgpu::LoadOp::Clear(colour))
+}
+
+/// An attachment that is kept.
+fn attachment(
+    view: &wgpu::TextureView,
+    load: wgpu::LoadOp<wgpu::Color>,
+) -> Option<wgpu::RenderPassColorAttachment<'_>> {
     Some(wgpu::RenderPassColorAttachment {
         view,
         depth_slice: None,
         resolve_target: None,
-        ops: wgpu::Operations { load: wgpu::LoadOp::Clear(colour), store: wgpu::StoreOp::Store },
+        ops: wgpu::Operations { load, store: wgpu::StoreOp::Store },
     })
 }
 
-/// A pipeline that draws one triangle over the whole target; `entries` are its vertex and fragment entry points.
-fn covering_pipeline(
-    device: &wgpu::Device,
-    label: &str,
-    module: &wgpu::ShaderModule,
-    entries: (&str, &str),
-    bind_group_layouts: &[Option<&wgpu::BindGroupLayout>],
-    targets: &[Option<wgpu::ColorTargetState>],
-    depth_stencil: Option<wgpu::DepthStencilState>,
-) -> wgpu::RenderPipeline {
-    let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+/// A buffer for one `T` of a frame.
+fn uniform_buffer<T>(device: &wgpu::Device, label: &str) -> wgpu::Buffer {
+    device.create_buffer(&wgpu::BufferDescriptor {
         label: Some(label),
-        bind_group_layouts,
-        immediate_size: 0,
-    });
-    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: Some(label),
-        layout: Some(&layout),
-        vertex: wgpu::VertexState {
-            module,
-            entry_point: Some(entries.0),
-            compilation_options: Default::default(),
-            buffers: &[],
-        },
-        primitive: wgpu::PrimitiveState::default(),
-        depth_stencil,
-        multisample: Default::default(),
-        fragment: Some(wgpu::FragmentState {
-            module,
-            entry_point: Some(entries.1),
-            compilation_options: Default::default(),
-            targets,
-        }),
-        multiview_mask: None,
-        cache: None,
+        size: size_of::<T>() as u64,
+        usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+        mapped_at_creation: false,
     })
 }

@@ -1,21 +1,46 @@
 //! Pass 1: the nearest depth along each light.
 
 use crate::Vertex;
-use crate::bindings::shadow::{BindGroup0, ENTRY_SHADOW_VERTEX, ShadowProjection, WGSL};
+use crate::bindings::shadow::{BindGroup0, BindGroup1, ENTRY_SHADOW_VERTEX, ShadowProjection, WGSL};
 use crate::camera::Bounds;
-use crate::geometry::Object;
-use crate::light::{DirectionalLight, LIGHT_CAPACITY};
+use crate::label::Label;
+use crate::light::{DirectionalLight, LIGHT_CAPACITY, check_count};
+use crate::object::Object;
+use crate::output::{FrameError, Progress};
+use crate::timestamps::Timestamps;
+use crate::wgpu;
+use crate::wgpu_version::vertex_buffer;
+
+use super::uniform_buffer;
+
+const NAME: &str = "ShadowPass";
 
 /// Texels per side of a shadow map: 0.2 mm on a head half a metre tall.
 const SHADOW_MAP_SIZE: u32 = 2048;
 
+/// How a [`ShadowPass`] is made.
+#[derive(Clone, Debug, Default)]
+pub struct ShadowDescriptor<'a> {
+    /// What the labels of its objects begin with; `None`, the default, for `ShadowPass`.
+    pub label: Option<&'a str>,
+    /// Where compiled pipelines are kept; by default nowhere.
+    pub pipeline_cache: Option<&'a wgpu::PipelineCache>,
+    /// Where the pass writes its times; by default nowhere.
+    pub timestamps: Option<Timestamps>,
+}
+
 /// Renders one shadow map per light; they feed shadows and thickness.
+///
+/// It reads no texture, so there is nothing to bind: `new`, `prepare`, `encode`.
 #[derive(Debug)]
 pub struct ShadowPass {
+    label: Label,
     pipeline: wgpu::RenderPipeline,
     maps: wgpu::TextureView,
     layers: Vec<Layer>,
+    timestamps: Option<Timestamps>,
     light_count: usize,
+    progress: Progress,
 }
 
 #[derive(Debug)]
@@ -30,27 +55,29 @@ impl ShadowPass {
     pub const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 
     /// Pipeline and maps; their size does not depend on the frame's.
-    pub fn new(device: &wgpu::Device) -> Self {
-        let layout = BindGroup0::layout(device, "ShadowPass layout");
+    pub fn new(device: &wgpu::Device, descriptor: &ShadowDescriptor<'_>) -> Self {
+        let label = Label::new(descriptor.label, NAME);
+        let layout = BindGroup0::layout(device, &label.of("layout"));
+        let object_layout = BindGroup1::layout(device, &label.of("object layout"));
         let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: Some("ShadowPass module"),
+            label: Some(&label.of("module")),
             source: wgpu::ShaderSource::Wgsl(WGSL.into()),
         });
         let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label: Some("ShadowPass pipeline layout"),
-            bind_group_layouts: &[Some(&layout)],
+            label: Some(&label.of("pipeline layout")),
+            bind_group_layouts: &[Some(&layout), Some(&object_layout)],
             immediate_size: 0,
         });
         let position_only =
             wgpu::VertexBufferLayout { attributes: &Vertex::LAYOUT.attributes[..1], ..Vertex::LAYOUT };
         let pipeline = device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-            label: Some("ShadowPass pipeline"),
+            label: Some(&label.of("pipeline")),
             layout: Some(&pipeline_layout),
             vertex: wgpu::VertexState {
                 module: &module,
                 entry_point: Some(ENTRY_SHADOW_VERTEX),
                 compilation_options: Default::default(),
-                buffers: &[Some(position_only)],
+                buffers: &[vertex_buffer(position_only)],
             },
             primitive: wgpu::PrimitiveState::default(),
             depth_stencil: Some(wgpu::DepthStencilState {
@@ -63,10 +90,10 @@ impl ShadowPass {
             multisample: Default::default(),
             fragment: None,
             multiview_mask: None,
-            cache: None,
+            cache: descriptor.pipeline_cache,
         });
         let texture = device.create_texture(&wgpu::TextureDescriptor {
-            label: Some("ShadowPass maps"),
+            label: Some(&label.of("maps")),
             size: wgpu::Extent3d {
                 width: SHADOW_MAP_SIZE,
                 height: SHADOW_MAP_SIZE,
@@ -79,14 +106,16 @@ impl ShadowPass {
             usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
             view_formats: &[],
         });
-        let layers =
-            (0..LIGHT_CAPACITY as u32).map(|layer| Layer::new(device, &layout, &texture, layer)).collect();
+        let layers = (0..LIGHT_CAPACITY as u32)
+            .map(|layer| Layer::new(device, &label, &layout, &texture, layer))
+            .collect();
         let maps = texture.create_view(&wgpu::TextureViewDescriptor {
-            label: Some("ShadowPass maps"),
+            label: Some(&label.of("maps")),
             dimension: Some(wgpu::TextureViewDimension::D2Array),
             ..Default::default()
         });
-        Self { pipeline, maps, layers, light_count: 0 }
+        let (timestamps, progress) = (descriptor.timestamps.clone(), Progress::Bound);
+        Self { label, pipeline, maps, layers, timestamps, light_count: 0, progress }
     }
 
     /// All maps, one layer per light.
@@ -99,21 +128,41 @@ impl ShadowPass {
         SHADOW_MAP_SIZE
     }
 
-    /// Uploads the lights' projections; lights beyond [`LIGHT_CAPACITY`] are left out.
-    pub fn prepare(&mut self, queue: &wgpu::Queue, lights: &[DirectionalLight], bounds: &Bounds) {
+    /// Uploads the lights' projections.
+    ///
+    /// # Errors
+    /// More than [`LIGHT_CAPACITY`] lights.
+    pub fn prepare(
+        &mut self,
+        queue: &wgpu::Queue,
+        lights: &[DirectionalLight],
+        bounds: &Bounds,
+    ) -> Result<(), FrameError> {
+        check_count(lights)?;
         for (light, layer) in lights.iter().zip(&self.layers) {
             let projection =
                 ShadowProjection { light_from_world: light.light_from_world(bounds).to_cols_array_2d() };
             queue.write_buffer(&layer.uniform, 0, bytemuck::bytes_of(&projection));
         }
-        self.light_count = lights.len().min(self.layers.len());
+        self.light_count = lights.len();
+        self.progress = Progress::Prepared;
+        Ok(())
     }
 
-    /// Records one depth-only pass per light.
-    pub fn encode(&self, encoder: &mut wgpu::CommandEncoder, objects: &[Object]) {
-        for layer in &self.layers[..self.light_count] {
+    /// Records one depth-only pass per light, each into its layer of [`maps`](Self::maps).
+    ///
+    /// # Errors
+    /// A pass that is not prepared.
+    pub fn encode(&self, encoder: &mut wgpu::CommandEncoder, objects: &[Object]) -> Result<(), FrameError> {
+        self.progress.is_prepared(NAME)?;
+        if let (0, Some(timestamps)) = (self.light_count, &self.timestamps) {
+            timestamps.of_nothing(encoder, self.label.as_str());
+        }
+        for (index, layer) in self.layers[..self.light_count].iter().enumerate() {
+            let (is_first, is_last) = (index == 0, index + 1 == self.light_count);
+            let timestamps = self.timestamps.as_ref();
             let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-                label: Some("ShadowPass"),
+                label: Some(self.label.as_str()),
                 color_attachments: &[],
                 depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
                     view: &layer.view,
@@ -123,38 +172,40 @@ impl ShadowPass {
                     }),
                     stencil_ops: None,
                 }),
+                timestamp_writes: timestamps.and_then(|times| times.of_render_pass(is_first, is_last)),
                 ..Default::default()
             });
             pass.set_pipeline(&self.pipeline);
             pass.set_bind_group(0, &layer.bind_group, &[]);
             for object in objects {
-                pass.set_vertex_buffer(0, object.geometry.vertices.slice(..));
-                pass.set_index_buffer(object.geometry.indices.slice(..), wgpu::IndexFormat::Uint32);
-                pass.draw_indexed(0..object.geometry.index_count, 0, 0..1);
+                pass.set_bind_group(BindGroup1::INDEX, &object.shadow_group, &[]);
+                object.geometry.draw(&mut pass);
             }
         }
+        Ok(())
     }
 }
 
 impl Layer {
-    fn new(device: &wgpu::Device, layout: &wgpu::BindGroupLayout, maps: &wgpu::Texture, layer: u32) -> Self {
+    fn new(
+        device: &wgpu::Device,
+        label: &Label,
+        layout: &wgpu::BindGroupLayout,
+        maps: &wgpu::Texture,
+        layer: u32,
+    ) -> Self {
         let view = maps.create_view(&wgpu::TextureViewDescriptor {
-            label: Some("ShadowPass map"),
+            label: Some(&label.of("map")),
             dimension: Some(wgpu::TextureViewDimension::D2),
             base_array_layer: layer,
             array_layer_count: Some(1),
             ..Default::default()
         });
-        let uniform = device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some("ShadowPass projection"),
-            size: size_of::<ShadowProjection>() as u64,
-            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
-            mapped_at_creation: false,
-        });
+        let uniform = uniform_buffer::<ShadowProjection>(device, &label.of("projection"));
         let bind_group = BindGroup0 { projection: uniform.as_entire_buffer_binding() }.create(
             device,
             layout,
-            "ShadowPass bind group",
+            &label.of("bind group"),
         );
         Self { view, uniform, bind_group }
     }

@@ -1,78 +1,72 @@
 //! Pass 3: light diffuses under the surface of translucent pixels.
 
 mod compute;
+mod descriptor;
 mod fragment;
+mod inputs;
 mod intermediate;
 mod path;
 
 use crate::bindings::kernel::{self, BindGroup1, ENTRY_DEBUG_FRAGMENT, ENTRY_SUBSURFACE_VERTEX};
-use crate::error::{DebugViewError, ResizeError};
-use crate::material_table::MaterialTable;
-use crate::target::{Extent, Target};
+use crate::extent::Extent;
+use crate::input::BindError;
+use crate::loaded_kernel::LoadedKernel;
+use crate::output::{self, FrameError, Progress};
+use crate::target::Target;
 use crate::view::SubsurfaceView;
-use subsurface_kernel::{DebugView, KernelParts};
+use crate::viewport::Viewport;
+use crate::wgpu;
+use subsurface_kernel::DebugView;
 
+use super::covering_pipeline::CoveringPipeline;
+use super::{PassError, uniform_buffer};
 use compute::{ComputeFrame, ComputePath};
-use fragment::{FragmentFrame, FragmentPath};
+use descriptor::Settings;
+use fragment::{FragmentFrame, FragmentPath, Output};
+use inputs::KeptInputs;
 
-pub use path::{Path, PathError};
+pub use descriptor::SubsurfaceDescriptor;
+pub use inputs::SubsurfaceInputs;
+pub use path::Path;
 
-/// What the pass reads. All views but the scale are of one size.
-#[derive(Clone, Copy, Debug)]
-pub struct SubsurfaceInputs<'a> {
-    /// Diffuse irradiance before the surface albedo, linear RGB: any float format.
-    pub irradiance: &'a wgpu::TextureView,
-    /// Surface albedo (red, green, blue) and the material number as a float; a number below 0 marks pixels that do not
-    /// scatter. A format that holds such numbers: `Rgba16Float` or `Rgba32Float`.
-    pub surface: &'a wgpu::TextureView,
-    /// Depth: a depth texture (its depth aspect) or a single-channel float texture; [`SubsurfaceView`] says what its
-    /// values mean.
-    pub depth: &'a wgpu::TextureView,
-    /// Depth-stencil texture whose stencil marks translucent pixels with
-    /// [`TRANSLUCENT_STENCIL`](crate::TRANSLUCENT_STENCIL): saves work on the fragment path. It is only read, and may
-    /// be the texture whose depth aspect is `depth`. The compute path goes by the material number alone.
-    pub depth_stencil: Option<&'a wgpu::TextureView>,
-    /// Factor on the mean free path per pixel, in the first component, from 0.001 to 1000: any float format. A texture
-    /// of one pixel holds for all; `None` is 1 everywhere.
-    pub mean_free_path_scale: Option<&'a wgpu::TextureView>,
-}
+const NAME: &str = "SubsurfacePass";
 
 /// Diffuses irradiance in screen space (Liang et al. 2023, eq. 22), on translucent pixels only, with the estimator that
 /// its kernel was generated for.
 ///
 /// ```no_run
-/// # use subsurface_runtime::{Extent, SubsurfaceInputs, KernelParts, SubsurfacePass, SubsurfaceView, wgpu};
+/// # use subsurface_runtime::{
+/// #     LoadedKernel, SubsurfaceDescriptor, SubsurfaceInputs, KernelParts, SubsurfacePass, SubsurfaceView, wgpu,
+/// # };
 /// # fn frame(
-/// #     device: &wgpu::Device, queue: &wgpu::Queue, encoder: &mut wgpu::CommandEncoder, kernel: &KernelParts,
+/// #     device: &wgpu::Device, queue: &wgpu::Queue, encoder: &mut wgpu::CommandEncoder, parts: &KernelParts,
 /// #     irradiance: &wgpu::TextureView, surface: &wgpu::TextureView, depth: &wgpu::TextureView,
 /// #     projection: [[f32; 4]; 4],
-/// # ) -> Result<(), subsurface_runtime::ResizeError> {
-/// let mut pass = SubsurfacePass::new(device, kernel, wgpu::TextureFormat::Rgba16Float, None);
-/// let inputs =
-///     SubsurfaceInputs { irradiance, surface, depth, depth_stencil: None, mean_free_path_scale: None };
-/// pass.resize(device, Extent::new(1280, 720), &inputs)?;
-/// pass.prepare(queue, &SubsurfaceView::from_projection(projection, 720, 1000.0));
-/// pass.encode(encoder);
-/// let diffused = pass.output().expect("resized above");
+/// # ) -> Result<(), Box<dyn std::error::Error>> {
+/// let kernel = LoadedKernel::new(device, queue, parts)?;
+/// let mut pass = SubsurfacePass::new(device, &kernel, &SubsurfaceDescriptor::default())?;
+/// // When an input is made anew:
+/// pass.bind(device, &SubsurfaceInputs::new(irradiance, surface, depth))?;
+/// let diffused = pass.create_output(device)?;
+/// // Every frame:
+/// pass.prepare(queue, &SubsurfaceView::from_projection(projection, 720, 1000.0))?;
+/// pass.encode(encoder, &diffused.view)?;
 /// # Ok(())
 /// # }
 /// ```
 #[derive(Debug)]
 pub struct SubsurfacePass {
+    settings: Settings,
+    kernel: LoadedKernel,
     stages: Stages,
-    /// Of kernels that hold debug views.
+    /// Why the pass does not take the compute path, if it does not.
+    refusal: Option<PassError>,
     debug: Option<wgpu::RenderPipeline>,
     debug_view: Option<DebugView>,
-    table: MaterialTable,
     uniform: wgpu::Buffer,
     layout: wgpu::BindGroupLayout,
-    /// A scale of the mean free path of 1, bound if the inputs have none.
-    unit_scale: Target,
-    unit_scale_is_filled: bool,
-    taps: u32,
-    format: wgpu::TextureFormat,
-    has_stencil: bool,
     bound: Option<Bound>,
+    progress: Progress,
 }
 
 #[derive(Debug)]
@@ -83,104 +77,73 @@ enum Stages {
 
 #[derive(Debug)]
 struct Bound {
+    inputs: KeptInputs,
     size: Extent,
+    viewport: Viewport,
     bind_group: wgpu::BindGroup,
-    depth_stencil: Option<wgpu::TextureView>,
-    output: Target,
     frame: Frame,
 }
 
 #[derive(Debug)]
 enum Frame {
-    Compute(ComputeFrame),
-    Fragment(FragmentFrame),
+    Compute(Box<ComputeFrame>),
+    Fragment(Box<FragmentFrame>),
 }
 
 impl SubsurfacePass {
-    /// Pipelines and layouts: all that does not depend on the frame's size. Takes the compute path where the device has
-    /// one and the kernel's writes `format`, else the fragment path.
-    ///
-    /// `format` is the output's; `stencil` the format of [`SubsurfaceInputs::depth_stencil`], if there will be one.
-    pub fn new(
-        device: &wgpu::Device,
-        kernel: &KernelParts,
-        format: wgpu::TextureFormat,
-        stencil: Option<wgpu::TextureFormat>,
-    ) -> Self {
-        let path = match path::check_compute(device, kernel, format) {
-            Ok(()) => Path::Compute,
-            Err(_) => Path::Fragment,
-        };
-        Self::of_path(device, kernel, format, stencil, path)
-    }
-
-    /// The same on a path of the caller's choice.
+    /// Pipelines and layouts: all that does not depend on the frame's size.
     ///
     /// # Errors
-    /// The compute path on a device without compute shaders, or to a format that the kernel's does not write.
-    pub fn with_path(
+    /// A path that the device cannot take, or an output format that it can write on neither path.
+    pub fn new(
         device: &wgpu::Device,
-        kernel: &KernelParts,
-        format: wgpu::TextureFormat,
-        stencil: Option<wgpu::TextureFormat>,
-        path: Path,
-    ) -> Result<Self, PathError> {
-        if path == Path::Compute {
-            path::check_compute(device, kernel, format)?;
-        }
-        Ok(Self::of_path(device, kernel, format, stencil, path))
-    }
-
-    fn of_path(
-        device: &wgpu::Device,
-        kernel: &KernelParts,
-        format: wgpu::TextureFormat,
-        stencil: Option<wgpu::TextureFormat>,
-        path: Path,
-    ) -> Self {
-        let table = MaterialTable::new(device, kernel);
-        let layout = BindGroup1::layout(device, "SubsurfacePass layout");
-        let module = crate::material_table::shader_module(device, kernel);
-        let groups = [&table.layout, &layout];
-        let stages = match path {
-            Path::Compute => Stages::Compute(ComputePath::new(device, kernel, &module, groups)),
-            Path::Fragment => {
-                Stages::Fragment(FragmentPath::new(device, kernel, &module, groups, format, stencil))
-            }
-        };
-        let debug = kernel.module().has_debug_views().then(|| {
-            super::covering_pipeline(
-                device,
-                "SubsurfacePass debug view",
-                &module,
-                (ENTRY_SUBSURFACE_VERTEX, ENTRY_DEBUG_FRAGMENT),
-                &groups.map(Some),
-                &[Some(format.into())],
-                None,
-            )
-        });
-        let uniform = device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some("SubsurfacePass view"),
-            size: size_of::<kernel::SubsurfaceView>() as u64,
-            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
-            mapped_at_creation: false,
-        });
-        let unit_scale =
-            Target::single_pixel(device, wgpu::TextureFormat::R32Float, "SubsurfacePass scale of 1");
-        Self {
+        kernel: &LoadedKernel,
+        descriptor: &SubsurfaceDescriptor<'_>,
+    ) -> Result<Self, PassError> {
+        let settings = descriptor.settings();
+        let layout = BindGroup1::layout(device, &settings.label.of("layout"));
+        let uniform = uniform_buffer::<kernel::SubsurfaceView>(device, &settings.label.of("view"));
+        let (stages, refusal) = Stages::new(device, kernel, &settings, &layout)?;
+        let debug = debug_pipeline(device, kernel, &settings, &layout);
+        Ok(Self {
+            settings,
+            kernel: kernel.clone(),
             stages,
+            refusal,
             debug,
             debug_view: None,
-            table,
             uniform,
             layout,
-            unit_scale,
-            unit_scale_is_filled: false,
-            taps: kernel.module().estimator().taps(),
-            format,
-            has_stencil: stencil.is_some(),
             bound: None,
+            progress: Progress::default(),
+        })
+    }
+
+    /// Takes another kernel, such as one whose materials were edited. Inputs stay bound; call
+    /// [`prepare`](Self::prepare) before the next frame.
+    ///
+    /// The surface input holds material numbers of the new kernel from now on, which
+    /// [`LoadedKernel::material_number`] knows by name. A debug view that the new kernel does not hold is turned off.
+    ///
+    /// # Errors
+    /// As of [`new`](Self::new); the old kernel stays.
+    pub fn set_kernel(&mut self, device: &wgpu::Device, kernel: &LoadedKernel) -> Result<(), PassError> {
+        (self.stages, self.refusal) = Stages::new(device, kernel, &self.settings, &self.layout)?;
+        self.debug = debug_pipeline(device, kernel, &self.settings, &self.layout);
+        self.debug_view = self.debug_view.filter(|_| self.debug.is_some());
+        self.kernel = kernel.clone();
+        if let Some(mut bound) = self.bound.take() {
+            bound.frame = self.stages.frame(device, &self.settings, bound.viewport.size());
+            bound.bind_group = self.bind_group(device, &bound.inputs.inputs());
+            self.bound = Some(bound);
+            self.progress = Progress::Bound;
         }
+        Ok(())
+    }
+
+    /// The kernel.
+    pub fn kernel(&self) -> &LoadedKernel {
+        &self.kernel
     }
 
     /// The path that the pass takes.
@@ -191,121 +154,209 @@ impl SubsurfacePass {
         }
     }
 
+    /// Why the pass does not take the compute path; `None` if it does, or if the descriptor asked for the other and the
+    /// device could take either.
+    pub fn compute_refusal(&self) -> Option<PassError> {
+        self.refusal
+    }
+
     /// Shows how light is gathered in place of the diffused irradiance, or that again for `None`. Takes effect with the
     /// next [`prepare`](Self::prepare) and the [`encode`](Self::encode) after it, so call it before both.
     ///
     /// # Errors
-    /// A view of a kernel that was compiled without debug views; what is shown stays.
-    pub fn set_debug_view(&mut self, view: Option<DebugView>) -> Result<(), DebugViewError> {
-        match view {
-            Some(view) if self.debug.is_none() => Err(DebugViewError::NotLinked { view }),
-            _ => {
-                self.debug_view = view;
-                Ok(())
-            }
+    /// A kernel that was compiled without debug views, or an output format that the device cannot render to.
+    pub fn set_debug_view(&mut self, view: Option<DebugView>) -> Result<(), PassError> {
+        if let (Some(view), None) = (view, &self.debug) {
+            return Err(if self.kernel.module().has_debug_views() {
+                PassError::NotRenderable { output: self.settings.format }
+            } else {
+                PassError::NoDebugViews { view }
+            });
         }
+        self.debug_view = view;
+        Ok(())
     }
 
-    /// Binds the inputs and makes the output anew if `size` changed. Call it again when an input view is replaced.
+    /// Binds the inputs. Call it again when an input view is replaced; textures between the stages are made anew only if
+    /// the size changed.
     ///
     /// # Errors
-    /// A size of 0 or beyond the device's limit; a stencil where the pass was made without, or the reverse. The old
-    /// bindings stay.
-    pub fn resize(
-        &mut self,
-        device: &wgpu::Device,
-        size: Extent,
-        inputs: &SubsurfaceInputs<'_>,
-    ) -> Result<(), ResizeError> {
-        match (self.has_stencil, inputs.depth_stencil) {
-            (true, None) => return Err(ResizeError::StencilMissing),
-            (false, Some(_)) => return Err(ResizeError::StencilUnexpected),
-            _ => {}
-        }
-        let (output, frame) = match self.bound.take_if(|bound| bound.size == size) {
-            Some(bound) => (bound.output, bound.frame),
-            None => {
-                let mut filled = wgpu::TextureUsages::RENDER_ATTACHMENT;
-                if self.path() == Path::Compute {
-                    filled |= wgpu::TextureUsages::STORAGE_BINDING;
+    /// Inputs that do not suit the pass or each other, named with what was found and what is needed. The old ones stay.
+    pub fn bind(&mut self, device: &wgpu::Device, inputs: &SubsurfaceInputs<'_>) -> Result<(), BindError> {
+        let (size, viewport) = inputs.check(device, &self.settings)?;
+        let frame = match self.bound.take_if(|bound| bound.viewport.size() == viewport.size()) {
+            Some(Bound { mut frame, .. }) => {
+                if let Frame::Compute(frame) = &mut frame {
+                    frame.forget_outputs();
                 }
-                let output = Target::filled_by(device, size, self.format, filled, "SubsurfacePass output")?;
-                let frame = match &self.stages {
-                    Stages::Compute(path) => Frame::Compute(path.frame(device, size, &output.view)?),
-                    Stages::Fragment(path) => Frame::Fragment(path.frame(device, size)?),
-                };
-                (output, frame)
+                frame
             }
+            None => self.stages.frame(device, &self.settings, viewport.size()),
         };
-        let bind_group = BindGroup1 {
+        let bind_group = self.bind_group(device, inputs);
+        self.bound = Some(Bound { inputs: inputs.keep(), size, viewport, bind_group, frame });
+        self.progress = Progress::Bound;
+        Ok(())
+    }
+
+    fn bind_group(&self, device: &wgpu::Device, inputs: &SubsurfaceInputs<'_>) -> wgpu::BindGroup {
+        BindGroup1 {
             subsurface_view: self.uniform.as_entire_buffer_binding(),
             irradiance_texture: inputs.irradiance,
             surface_texture: inputs.surface,
             depth_texture: inputs.depth,
-            mean_free_path_scale_texture: inputs.mean_free_path_scale.unwrap_or(&self.unit_scale.view),
+            mean_free_path_scale_texture: inputs
+                .mean_free_path_scale
+                .unwrap_or_else(|| self.kernel.unit_scale()),
+            material_id_texture: inputs.material_ids.unwrap_or_else(|| self.kernel.no_material_ids()),
         }
-        .create(device, &self.layout, "SubsurfacePass bind group");
-        let depth_stencil = inputs.depth_stencil.cloned();
-        self.bound = Some(Bound { size, bind_group, depth_stencil, output, frame });
-        Ok(())
+        .create(device, &self.layout, &self.settings.label.of("bind group"))
+    }
+
+    /// A texture that the pass can write its output to: of the inputs' size and the descriptor's format, to be read in
+    /// shaders and copied from.
+    ///
+    /// # Errors
+    /// Nothing is bound.
+    pub fn create_output(&self, device: &wgpu::Device) -> Result<Target, FrameError> {
+        let Some(bound) = &self.bound else { return Err(FrameError::NotBound { pass: NAME }) };
+        let mut written = self.written();
+        if self.debug.is_some() {
+            written |= wgpu::TextureUsages::RENDER_ATTACHMENT;
+        }
+        let label = self.settings.label.of("output");
+        Ok(Target::of_checked_size(device, bound.size, self.settings.format, written, &label))
+    }
+
+    /// How the path writes its output.
+    fn written(&self) -> wgpu::TextureUsages {
+        match self.path() {
+            Path::Compute => wgpu::TextureUsages::STORAGE_BINDING,
+            Path::Fragment => wgpu::TextureUsages::RENDER_ATTACHMENT,
+        }
     }
 
     /// Uploads this frame's parameters.
-    pub fn prepare(&mut self, queue: &wgpu::Queue, view: &SubsurfaceView) {
-        self.table.prepare(queue);
-        if !std::mem::replace(&mut self.unit_scale_is_filled, true) {
-            let layout =
-                wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(4), rows_per_image: None };
-            let texture = &self.unit_scale.texture;
-            queue.write_texture(
-                texture.as_image_copy(),
-                bytemuck::bytes_of(&1.0_f32),
-                layout,
-                texture.size(),
-            );
-        }
+    ///
+    /// # Errors
+    /// Nothing is bound.
+    pub fn prepare(&mut self, queue: &wgpu::Queue, view: &SubsurfaceView) -> Result<(), FrameError> {
+        let Some(bound) = &self.bound else { return Err(FrameError::NotBound { pass: NAME }) };
         let debug_view = self.debug_view.map_or(0, DebugView::number);
-        queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&view.uniform(self.taps, debug_view)));
+        let uniform = view.uniform(self.kernel.estimator().taps(), debug_view, bound.viewport);
+        queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&uniform));
+        self.progress = Progress::Prepared;
+        Ok(())
     }
 
-    /// Records the pass. Submits nothing; before the first [`resize`](Self::resize) there is nothing to record.
-    pub fn encode(&self, encoder: &mut wgpu::CommandEncoder) {
-        let Some(bound) = &self.bound else { return };
-        let groups = [&self.table.bind_group, &bound.bind_group];
-        let output = &bound.output.view;
-        if let (Some(_), Some(pipeline)) = (self.debug_view, &self.debug) {
-            encode_debug_view(encoder, pipeline, groups, output);
-            return;
-        }
-        match (&self.stages, &bound.frame) {
-            (Stages::Compute(path), Frame::Compute(frame)) => path.encode(encoder, frame, groups),
-            (Stages::Fragment(path), Frame::Fragment(frame)) => {
-                path.encode(encoder, frame, groups, output, bound.depth_stencil.as_ref());
+    /// Records the pass into `output`, which has the inputs' size and the descriptor's format: the diffused irradiance,
+    /// where there is no material the irradiance as it was, and the alpha of the irradiance everywhere. Submits nothing.
+    ///
+    /// The compute path stores to the output, so its texture needs the usage `STORAGE_BINDING`; the fragment path and
+    /// debug views need `RENDER_ATTACHMENT`. Outside of a viewport the output keeps what it holds.
+    ///
+    /// # Errors
+    /// A pass that is not bound and prepared, or an output that it cannot write to.
+    pub fn encode(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        output: &wgpu::TextureView,
+    ) -> Result<(), FrameError> {
+        self.progress.is_prepared(NAME)?;
+        let Some(bound) = &self.bound else { return Err(FrameError::NotBound { pass: NAME }) };
+        let debug = self.debug.as_ref().filter(|_| self.debug_view.is_some());
+        let usage = if debug.is_some() { wgpu::TextureUsages::RENDER_ATTACHMENT } else { self.written() };
+        let (size, format) = (bound.size, self.settings.format);
+        output::Output { pass: NAME, size, format, usage }.check(output)?;
+        let groups = [self.kernel.bind_group(), &bound.bind_group];
+        let inputs = bound.inputs.inputs();
+        let target = Output {
+            view: output,
+            depth_stencil: inputs.depth_stencil,
+            viewport: bound.viewport,
+            is_whole: bound.viewport == Viewport::whole(size),
+        };
+        match (debug, &self.stages, &bound.frame) {
+            (Some(pipeline), ..) => self.encode_debug_view(encoder, pipeline, groups, &target),
+            (None, Stages::Compute(path), Frame::Compute(frame)) => {
+                path.encode(encoder, &self.settings, frame, groups, output);
             }
-            // Frames are made by the stages of the pass, which never change.
+            (None, Stages::Fragment(path), Frame::Fragment(frame)) => {
+                path.encode(encoder, &self.settings, frame, groups, &target);
+            }
+            // Frames are made by the stages of the pass, together with which they change.
             _ => unreachable!("the frame belongs to the other path"),
         }
+        Ok(())
     }
 
-    /// The diffused irradiance; `None` before the first [`resize`](Self::resize).
-    pub fn output(&self) -> Option<&Target> {
-        self.bound.as_ref().map(|bound| &bound.output)
+    fn encode_debug_view(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        pipeline: &wgpu::RenderPipeline,
+        groups: [&wgpu::BindGroup; 2],
+        output: &Output<'_>,
+    ) {
+        let timestamps = self.settings.timestamps.as_ref();
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some(self.settings.label.as_str()),
+            color_attachments: &[output.attachment()],
+            timestamp_writes: timestamps.and_then(|timestamps| timestamps.of_render_pass(true, true)),
+            ..Default::default()
+        });
+        pass.set_bind_group(0, groups[0], &[]);
+        pass.set_bind_group(BindGroup1::INDEX, groups[1], &[]);
+        pass.set_pipeline(pipeline);
+        output.confine(&mut pass);
+        pass.draw(0..3, 0..1);
     }
 }
 
-fn encode_debug_view(
-    encoder: &mut wgpu::CommandEncoder,
-    pipeline: &wgpu::RenderPipeline,
-    groups: [&wgpu::BindGroup; 2],
-    output: &wgpu::TextureView,
-) {
-    let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-        label: Some("SubsurfacePass debug view"),
-        color_attachments: &[super::cleared(output, wgpu::Color::TRANSPARENT)],
-        ..Default::default()
-    });
-    pass.set_bind_group(0, groups[0], &[]);
-    pass.set_bind_group(BindGroup1::INDEX, groups[1], &[]);
-    pass.set_pipeline(pipeline);
-    pass.draw(0..3, 0..1);
+impl Stages {
+    /// The stages of the path to take, and why it is not the compute path.
+    fn new(
+        device: &wgpu::Device,
+        kernel: &LoadedKernel,
+        settings: &Settings,
+        layout: &wgpu::BindGroupLayout,
+    ) -> Result<(Self, Option<PassError>), PassError> {
+        let (path, refusal) = path::choose(device, kernel, settings.format, settings.path)?;
+        let groups = [kernel.bind_group_layout(), layout];
+        let stages = match path {
+            Path::Compute => Self::Compute(ComputePath::new(device, kernel, settings, groups)?),
+            Path::Fragment => Self::Fragment(FragmentPath::new(device, kernel, settings, groups)),
+        };
+        Ok((stages, refusal))
+    }
+
+    /// What lies between the stages for a viewport of `size`.
+    fn frame(&self, device: &wgpu::Device, settings: &Settings, size: Extent) -> Frame {
+        match self {
+            Self::Compute(path) => Frame::Compute(Box::new(path.frame(device, settings, size))),
+            Self::Fragment(path) => Frame::Fragment(Box::new(path.frame(device, settings, size))),
+        }
+    }
+}
+
+/// The pipeline of debug views, if the kernel holds them and the device can render to the output.
+fn debug_pipeline(
+    device: &wgpu::Device,
+    kernel: &LoadedKernel,
+    settings: &Settings,
+    layout: &wgpu::BindGroupLayout,
+) -> Option<wgpu::RenderPipeline> {
+    if !kernel.module().has_debug_views() || path::check_render(device, settings.format).is_err() {
+        return None;
+    }
+    let pipeline = CoveringPipeline {
+        label: &settings.label.of("debug view"),
+        module: kernel.shader_module(),
+        entries: (ENTRY_SUBSURFACE_VERTEX, ENTRY_DEBUG_FRAGMENT),
+        constants: settings.constants(),
+        bind_group_layouts: &[Some(kernel.bind_group_layout()), Some(layout)],
+        targets: &[Some(settings.format.into())],
+        depth_stencil: None,
+        cache: settings.pipeline_cache.as_ref(),
+    };
+    Some(pipeline.create(device))
 }

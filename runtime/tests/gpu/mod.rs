@@ -7,7 +7,7 @@ mod evaluation;
 use subsurface_codegen::{Compilation, Compiler, OutputFormat};
 use subsurface_profile::description::Notation;
 use subsurface_profile::{Channel, Medium, Model, ModelKind};
-use subsurface_runtime::{Extent, Readback, Target, wgpu};
+use subsurface_runtime::{Extent, FrameError, KernelParts, LoadedKernel, Readback, Target, wgpu};
 
 /// A device and its queue.
 pub struct Gpu {
@@ -23,11 +23,17 @@ impl Gpu {
 
     /// The same with other limits than WebGPU's.
     pub fn with_limits(limits: wgpu::Limits) -> Self {
+        Self::with(limits, wgpu::Features::empty())
+    }
+
+    /// The same with other limits than WebGPU's, and with features that the adapter must have.
+    pub fn with(limits: wgpu::Limits, features: wgpu::Features) -> Self {
         let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
         let adapter = pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default()))
             .expect("no graphics adapter: run `cargo xtask test`, or install mesa-vulkan-drivers");
         let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
             label: Some("test device"),
+            required_features: features,
             required_limits: limits.using_resolution(adapter.limits()),
             ..Default::default()
         }))
@@ -43,6 +49,18 @@ impl Gpu {
             panic!("validation error: {error}");
         }
         value
+    }
+
+    /// A kernel on this device.
+    pub fn load(&self, parts: &KernelParts) -> LoadedKernel {
+        LoadedKernel::new(&self.device, &self.queue, parts).expect("the kernel is small")
+    }
+
+    /// Submits what `record` records.
+    pub fn submit(&self, record: impl FnOnce(&mut wgpu::CommandEncoder) -> Result<(), FrameError>) {
+        let mut encoder = self.device.create_command_encoder(&Default::default());
+        record(&mut encoder).expect("the pass is bound and prepared");
+        self.queue.submit([encoder.finish()]);
     }
 
     /// A texture of four f32 per pixel.
@@ -79,7 +97,10 @@ impl Gpu {
     pub fn map(&self, buffer: &wgpu::Buffer) -> Vec<u8> {
         buffer.map_async(wgpu::MapMode::Read, .., |result| result.expect("mapping a readback buffer"));
         self.device.poll(wgpu::PollType::wait_indefinitely()).expect("the device answers");
-        buffer.get_mapped_range(..).expect("mapped above").to_vec()
+        let mapped = buffer.get_mapped_range(..);
+        #[cfg(feature = "wgpu-30")]
+        let mapped = mapped.expect("mapped above");
+        mapped.to_vec()
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::gpu::Gpu;
 use crate::setup::SURFACE_ALBEDO;
-use subsurface_runtime::wgpu;
+use subsurface_runtime::{SubsurfaceInputs, wgpu};
 
 /// Distance of a surface where a test says nothing else.
 pub(crate) const DISTANCE_MM: f32 = 500.0;
@@ -110,6 +110,14 @@ pub(crate) struct Uploaded {
     pub(crate) surface: wgpu::TextureView,
     pub(crate) depth: wgpu::TextureView,
     pub(crate) scale: Option<wgpu::TextureView>,
+}
+
+impl Uploaded {
+    /// The frame as a pass takes it.
+    pub(crate) fn inputs(&self) -> SubsurfaceInputs<'_> {
+        let inputs = SubsurfaceInputs::new(&self.irradiance, &self.surface, &self.depth);
+        self.scale.as_ref().map_or(inputs, |scale| inputs.with_mean_free_path_scale(scale))
+    }
 }
 
 /// A number in [0, 1) that is a hash of a pixel and `salt`: the same on every machine.

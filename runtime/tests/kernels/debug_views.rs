@@ -3,7 +3,7 @@
 use crate::buffers::{Buffers, DISTANCE_MM, noise};
 use crate::setup::{Description, Diffuser, KERNELS, PATHS, shared_gpu};
 use subsurface_codegen::{Compiler, Estimator};
-use subsurface_runtime::{DebugView, Path, SubsurfacePass, SubsurfaceView, wgpu};
+use subsurface_runtime::{DebugView, Path, SubsurfaceDescriptor, SubsurfacePass, SubsurfaceView};
 
 const SIZE: [u32; 2] = [70, 52];
 const TILE_SIDE: u32 = 16;
@@ -168,8 +168,9 @@ fn a_kernel_without_debug_views_refuses_them() {
     let compilation = Compiler::from_memory([("skin.ron", skin)]).compile();
     let compilation = compilation.unwrap_or_else(|report| panic!("{report}"));
     assert!(!compilation.wgsl().contains("fn debug"), "what no one asked for is linked");
-    let format = wgpu::TextureFormat::Rgba16Float;
-    let mut pass = gpu.validated(|| SubsurfacePass::new(&gpu.device, &compilation.parts, format, None));
+    let kernel = gpu.load(&compilation.parts);
+    let pass = gpu.validated(|| SubsurfacePass::new(&gpu.device, &kernel, &SubsurfaceDescriptor::default()));
+    let mut pass = pass.expect("every device can write the default format");
     let error = pass.set_debug_view(Some(DebugView::Taps)).expect_err("there is no view");
     assert_eq!(
         error.to_string(),

@@ -18,6 +18,7 @@ mod energy;
 mod errors;
 mod footprints;
 mod hostile;
+mod inputs;
 mod leaks;
 mod material_table;
 mod mean_free_path_scale;

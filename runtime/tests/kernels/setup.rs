@@ -7,7 +7,8 @@ use crate::gpu::{Gpu, example_files, model, stems, table_files};
 use subsurface_codegen::{Compiler, Estimator, OutputFormat, Rejection};
 use subsurface_profile::{Channel, Length, Medium, ModelKind, RadialProfile};
 use subsurface_runtime::{
-    DebugView, Extent, GBuffer, KernelParts, Path, SubsurfaceInputs, SubsurfacePass, SubsurfaceView, wgpu,
+    DebugView, GBuffer, KernelParts, Path, SubsurfaceDescriptor, SubsurfaceInputs, SubsurfacePass,
+    SubsurfaceView, Target, wgpu,
 };
 
 pub(crate) const MEAN_FREE_PATH_MM: [f64; 3] = [1.3, 0.95, 0.67];
@@ -202,9 +203,9 @@ impl Diffuser {
     }
 
     fn make(description: &Description, stencil: Option<wgpu::TextureFormat>, path: Path) -> SubsurfacePass {
-        let (gpu, kernel) = (shared_gpu(), description.compile());
-        let format = wgpu::TextureFormat::Rgba32Float;
-        gpu.validated(|| SubsurfacePass::with_path(&gpu.device, kernel, format, stencil, path))
+        let gpu = shared_gpu();
+        let descriptor = SubsurfaceDescriptor { stencil, path: Some(path), ..descriptor() };
+        gpu.validated(|| SubsurfacePass::new(&gpu.device, &gpu.load(description.compile()), &descriptor))
             .unwrap_or_else(|error| panic!("{error}"))
     }
 
@@ -225,9 +226,10 @@ impl Diffuser {
         view: &SubsurfaceView,
         buffers: &Buffers,
     ) -> Vec<[f32; 4]> {
-        self.pass().set_debug_view(Some(debug_view)).expect("the kernels of the tests have debug views");
+        let mut set = |view| self.pass().set_debug_view(view).expect("the kernel holds debug views");
+        set(Some(debug_view));
         let picture = self.diffuse(view, buffers);
-        self.pass().set_debug_view(None).expect("no view asks for nothing");
+        self.pass().set_debug_view(None).expect("no view is always there");
         picture
     }
 
@@ -242,22 +244,40 @@ impl Diffuser {
         let pass = self.pass();
         gpu.validated(|| {
             let uploaded = buffers.upload(gpu);
-            let inputs = SubsurfaceInputs {
-                irradiance: &uploaded.irradiance,
-                surface: &uploaded.surface,
-                depth: &uploaded.depth,
-                depth_stencil,
-                mean_free_path_scale: uploaded.scale.as_ref(),
-            };
-            let [width, height] = buffers.size;
-            pass.resize(&gpu.device, Extent::new(width, height), &inputs).expect("a small frame");
-            pass.prepare(&gpu.queue, view);
-            let mut encoder = gpu.device.create_command_encoder(&Default::default());
-            pass.encode(&mut encoder);
-            gpu.queue.submit([encoder.finish()]);
-            bytemuck::pod_collect_to_vec(&gpu.read_texture(&pass.output().expect("resized above").texture))
+            let mut inputs = uploaded.inputs();
+            inputs.depth_stencil = depth_stencil;
+            run(gpu, pass, view, &inputs)
         })
     }
+}
+
+/// What all passes of these tests write.
+pub(crate) fn descriptor() -> SubsurfaceDescriptor<'static> {
+    SubsurfaceDescriptor::new(wgpu::TextureFormat::Rgba32Float)
+}
+
+/// A pass over `inputs`: its output.
+pub(crate) fn run(
+    gpu: &Gpu,
+    pass: &mut SubsurfacePass,
+    view: &SubsurfaceView,
+    inputs: &SubsurfaceInputs<'_>,
+) -> Vec<[f32; 4]> {
+    pass.bind(&gpu.device, inputs).unwrap_or_else(|error| panic!("{error}"));
+    let output = pass.create_output(&gpu.device).expect("bound above");
+    run_to(gpu, pass, view, &output)
+}
+
+/// A pass that is bound, to `output`: what that holds then.
+pub(crate) fn run_to(
+    gpu: &Gpu,
+    pass: &mut SubsurfacePass,
+    view: &SubsurfaceView,
+    output: &Target,
+) -> Vec<[f32; 4]> {
+    pass.prepare(&gpu.queue, view).expect("bound before");
+    gpu.submit(|encoder| pass.encode(encoder, &output.view));
+    bytemuck::pod_collect_to_vec(&gpu.read_texture(&output.texture))
 }
 
 /// Peak signal-to-noise ratio of two pictures in dB, over red, green and blue; the peak is the reference's largest value.

@@ -1,4 +1,4 @@
-// uses: gather/{input, material, mean_free_path_scale, packed_pixel, view}, kernel/constants, kernels/interleaved/agreement, the material set; needs: subsurface_view, surface_texture
+// uses: gather/{input, material, mean_free_path_scale, packed_pixel, view}, kernel/constants, kernels/interleaved/agreement, the material set; needs: subsurface_view, surface_texel_at
 
 // Blocks of 2×2 pixels share one far field.
 
@@ -34,7 +34,7 @@ fn block_pixel(pixels: texture_2d<u32>, position: vec2i) -> BlockPixel {
     if surface.material == NO_MATERIAL {
         return BlockPixel(position, surface, vec4f(0.0), 1.0);
     }
-    let surface_texel = textureLoad(surface_texture, position, 0);
+    let surface_texel = surface_texel_at(position);
     return BlockPixel(position, surface, surface_texel, mean_free_path_scale_at(position));
 }
 

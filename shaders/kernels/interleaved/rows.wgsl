@@ -1,4 +1,4 @@
-// uses: gather/{input, packed_pixel}, kernel/constants, kernels/interleaved, kernels/interleaved/{far_fields, receiver, ring}; needs: diffused_target, irradiance_texture, pixel_source, subsurface_view
+// uses: gather/{input, packed_pixel}, kernel/constants, kernels/interleaved, kernels/interleaved/{far_fields, receiver, ring}; needs: diffused_target, irradiance_at, pixel_source, subsurface_view, texture_position
 
 // Rows of four pixels: what an invocation of the compute path loads once for the rings of a block's four pixels.
 
@@ -64,8 +64,8 @@ fn store_diffused(
         return;
     }
     let pixel = BLOCK_SIDE * home + (side + 1) / 2;
-    let texel = textureLoad(irradiance_texture, pixel, 0);
+    let texel = irradiance_at(pixel);
     let at = receiver_at(pixel, surface, texel);
     let diffused = diffuse_interleaved(at, side, subsurface_view.taps, fields, ring, beside, across);
-    textureStore(diffused_target, pixel, vec4f(diffused, texel.a));
+    textureStore(diffused_target, texture_position(pixel), vec4f(diffused, texel.a));
 }

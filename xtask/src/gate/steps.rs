@@ -15,6 +15,7 @@ pub(crate) const ALL: [Step; 12] = [
     LINTS_OF_THE_DEMO,
     DOCUMENTATION,
     TESTS,
+    TESTS_WITH_WGPU_29,
     ACCURACY,
     TABLES,
     Step { title: "oldest Rust", what: "cargo +1.88 check --workspace --all-targets", run: oldest_rust },
@@ -61,6 +62,25 @@ const DOCUMENTATION: Step = Step {
 };
 
 const TESTS: Step = Step { title: "tests", what: "cargo xtask test", run: tests };
+
+/// The workspace is built against wgpu 30. What differs with 29 is in two places of the runtime, and the four passes
+/// together go through both.
+const TESTS_WITH_WGPU_29: Step = Step {
+    title: "tests with wgpu 29",
+    what: "cargo test --package subsurface-runtime --no-default-features --features wgpu-29,vulkan --test renderer",
+    run: || {
+        passes(&[
+            "test",
+            "--package",
+            "subsurface-runtime",
+            "--no-default-features",
+            "--features",
+            "wgpu-29,vulkan",
+            "--test",
+            "renderer",
+        ])
+    },
+};
 
 const ACCURACY: Step =
     Step { title: "accuracy", what: "cargo xtask accuracy --check", run: accuracy_is_current };

@@ -1,19 +1,24 @@
 //! The compute path: tiles without translucent pixels are copied and left out of all that follows.
 
-use wgpu::util::DeviceExt as _;
+use std::sync::{Mutex, PoisonError};
 
 use crate::bindings::kernel::{
     BindGroup1, ENTRY_CLASSIFY_COMPUTE, ENTRY_FIRST_COMPUTE, ENTRY_SUBSURFACE_COMPUTE,
     SubsurfaceComputeBindGroup2, WORKGROUP_CLASSIFY_COMPUTE,
 };
-use crate::error::SizeError;
-use crate::target::{Extent, Target};
-use subsurface_kernel::Estimator;
-use subsurface_kernel::KernelParts;
+use crate::extent::Extent;
+use crate::loaded_kernel::LoadedKernel;
+use crate::pass::PassError;
+use crate::target::Target;
+use crate::texture_format::{output_format, texture_format};
+use crate::wgpu::{self, util::DeviceExt as _};
+use subsurface_kernel::{Estimator, OutputFormat};
 
-use crate::kernel_format::texture_format;
-
+use super::descriptor::Settings;
 use super::intermediate::{Intermediate, intermediates, packed_pixels};
+
+/// Outputs whose bind groups are kept: frames in flight rarely write to more.
+const OUTPUTS_KEPT: usize = 4;
 
 /// Side of a tile, pixels: an invocation of the classification takes 2×2 of them.
 const TILE_SIDE: u32 = 2 * WORKGROUP_CLASSIFY_COMPUTE[0];
@@ -24,7 +29,7 @@ const NO_DISPATCH: [u32; 3] = [0, 0, 1];
 /// Pipelines.
 #[derive(Debug)]
 pub(super) struct ComputePath {
-    kind: Estimator,
+    estimator: Estimator,
     classify: wgpu::ComputePipeline,
     first: Option<wgpu::ComputePipeline>,
     diffuse: wgpu::ComputePipeline,
@@ -35,94 +40,183 @@ pub(super) struct ComputePath {
 /// What depends on the frame's size.
 #[derive(Debug)]
 pub(super) struct ComputeFrame {
-    tiles: wgpu::Buffer,
-    dispatch: wgpu::Buffer,
+    resources: Resources,
     tile_columns: u32,
     tile_rows: u32,
-    classify_group: wgpu::BindGroup,
-    first_group: wgpu::BindGroup,
-    second_group: wgpu::BindGroup,
+    /// Bind groups of the latest outputs, the latest first. They hold on to these outputs until the pass is bound again.
+    outputs: Mutex<Vec<OutputGroups>>,
+}
+
+/// Textures and lists between the stages.
+#[derive(Debug)]
+struct Resources {
+    device: wgpu::Device,
+    layout: wgpu::BindGroupLayout,
+    intermediates: Vec<Target>,
+    pixels: Target,
+    // A texture that is written may not be read in the same dispatch, so what is left unused has its own.
+    nothing: Target,
+    unused_four_words: Target,
+    unused_two_words: Target,
+    unused_pixels: Target,
+    tiles: wgpu::Buffer,
+    dispatch: wgpu::Buffer,
+    unused_dispatch: wgpu::Buffer,
+    labels: [String; 3],
+}
+
+/// Bind groups of the stages for one output.
+#[derive(Debug)]
+struct OutputGroups {
+    output: wgpu::TextureView,
+    classify: wgpu::BindGroup,
+    first: wgpu::BindGroup,
+    second: wgpu::BindGroup,
 }
 
 impl ComputePath {
     pub(super) fn new(
         device: &wgpu::Device,
-        kernel: &KernelParts,
-        module: &wgpu::ShaderModule,
+        kernel: &LoadedKernel,
+        settings: &Settings,
         groups: [&wgpu::BindGroupLayout; 2],
-    ) -> Self {
-        let layout = layout(device, kernel);
+    ) -> Result<Self, PassError> {
+        let format = settings.format;
+        let module = output_format(format).and_then(|output| kernel.shader_module_for(device, output));
+        let module = module.ok_or(PassError::Format { kernel: kernel.own_format(), output: format })?;
+        let label = &settings.label;
+        let layout = layout(device, &label.of("compute layout"), format);
         let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label: Some("SubsurfacePass compute pipeline layout"),
+            label: Some(&label.of("compute pipeline layout")),
             bind_group_layouts: &[Some(groups[0]), Some(groups[1]), Some(&layout)],
             immediate_size: 0,
         });
-        let pipeline = |label, entry_point| {
+        let pipeline = |stage, entry_point| {
             device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-                label: Some(label),
+                label: Some(&label.of(stage)),
                 layout: Some(&pipeline_layout),
                 module,
                 entry_point: Some(entry_point),
-                compilation_options: Default::default(),
-                cache: None,
+                compilation_options: wgpu::PipelineCompilationOptions {
+                    constants: settings.constants(),
+                    ..Default::default()
+                },
+                cache: settings.pipeline_cache.as_ref(),
             })
         };
-        let kind = kernel.module().estimator();
-        let first =
-            kind.has_two_stages().then(|| pipeline("SubsurfacePass first stage", ENTRY_FIRST_COMPUTE));
+        let estimator = kernel.estimator();
+        let first = estimator.has_two_stages().then(|| pipeline("first stage", ENTRY_FIRST_COMPUTE));
         let no_dispatch = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
-            label: Some("SubsurfacePass empty dispatch"),
+            label: Some(&label.of("empty dispatch")),
             contents: bytemuck::cast_slice(&NO_DISPATCH),
             usage: wgpu::BufferUsages::COPY_SRC,
         });
-        Self {
-            kind,
-            classify: pipeline("SubsurfacePass classification", ENTRY_CLASSIFY_COMPUTE),
+        Ok(Self {
+            estimator,
+            classify: pipeline("classification", ENTRY_CLASSIFY_COMPUTE),
             first,
-            diffuse: pipeline("SubsurfacePass stage", ENTRY_SUBSURFACE_COMPUTE),
+            diffuse: pipeline("stage", ENTRY_SUBSURFACE_COMPUTE),
             layout,
             no_dispatch,
-        }
+        })
     }
 
-    /// Textures and lists for frames of `size` whose result goes to `output`.
-    pub(super) fn frame(
-        &self,
-        device: &wgpu::Device,
-        size: Extent,
-        output: &wgpu::TextureView,
-    ) -> Result<ComputeFrame, SizeError> {
+    /// Textures and lists for viewports of `size`.
+    pub(super) fn frame(&self, device: &wgpu::Device, settings: &Settings, size: Extent) -> ComputeFrame {
         let usage = wgpu::TextureUsages::STORAGE_BINDING;
-        let intermediates = intermediates(self.kind)
-            .iter()
-            .map(|intermediate| intermediate.target(device, size, usage))
-            .collect::<Result<Vec<_>, _>>()?;
-        let pixels = packed_pixels(self.kind).target(device, size, usage)?;
-        // A texture that is written may not be read in the same dispatch, so what is left unused has its own.
-        let unused = |format, label| Intermediate::single(format, label).target(device, size, usage);
-        let nothing = unused(wgpu::TextureFormat::Rg32Uint, "SubsurfacePass nothing")?;
-        let unused_four_words = unused(wgpu::TextureFormat::Rgba32Uint, "SubsurfacePass unused four words")?;
-        let unused_two_words = unused(wgpu::TextureFormat::Rg32Uint, "SubsurfacePass unused two words")?;
-        let unused_pixels = unused(wgpu::TextureFormat::Rg32Uint, "SubsurfacePass unused pixels")?;
-        let find = |format| intermediates.iter().find(|target| target.texture.format() == format);
-        let four_words = find(wgpu::TextureFormat::Rgba32Uint).unwrap_or(&unused_four_words);
-        let two_words = find(wgpu::TextureFormat::Rg32Uint).unwrap_or(&unused_two_words);
-
+        let label = &settings.label;
+        let intermediates = intermediates(self.estimator);
+        let intermediates =
+            intermediates.iter().map(|texture| texture.target(device, label, size, usage)).collect();
+        let unused = |format, name| Intermediate::single(format, name).target(device, label, size, usage);
         let (tile_columns, tile_rows) = (size.width.div_ceil(TILE_SIDE), size.height.div_ceil(TILE_SIDE));
-        let buffer = |label, words: u32, usage| {
+        let buffer = |name, words: u32, usage| {
             device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some(label),
+                label: Some(&label.of(name)),
                 size: u64::from(words) * 4,
                 usage: usage | wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST,
                 mapped_at_creation: false,
             })
         };
         let none = wgpu::BufferUsages::empty();
-        let tiles = buffer("SubsurfacePass tiles", 1 + tile_columns * tile_rows, none);
-        let dispatch = buffer("SubsurfacePass dispatch", 3, wgpu::BufferUsages::INDIRECT);
-        let unused_dispatch = buffer("SubsurfacePass unused dispatch", 3, none);
+        let resources = Resources {
+            device: device.clone(),
+            layout: self.layout.clone(),
+            intermediates,
+            pixels: packed_pixels(self.estimator).target(device, label, size, usage),
+            nothing: unused(wgpu::TextureFormat::Rg32Uint, "nothing"),
+            unused_four_words: unused(wgpu::TextureFormat::Rgba32Uint, "unused four words"),
+            unused_two_words: unused(wgpu::TextureFormat::Rg32Uint, "unused two words"),
+            unused_pixels: unused(wgpu::TextureFormat::Rg32Uint, "unused pixels"),
+            tiles: buffer("tiles", 1 + tile_columns * tile_rows, none),
+            dispatch: buffer("dispatch", 3, wgpu::BufferUsages::INDIRECT),
+            unused_dispatch: buffer("unused dispatch", 3, none),
+            labels: ["classification bind group", "first stage bind group", "stage bind group"]
+                .map(|group| label.of(group)),
+        };
+        ComputeFrame { resources, tile_columns, tile_rows, outputs: Mutex::default() }
+    }
 
-        let group = |read: [&Target; 3], written: [&Target; 3], arguments: &wgpu::Buffer, label| {
+    pub(super) fn encode(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        settings: &Settings,
+        frame: &ComputeFrame,
+        groups: [&wgpu::BindGroup; 2],
+        output: &wgpu::TextureView,
+    ) {
+        // What a thread leaves that panicked while it held the list is still a list of groups.
+        let mut outputs = frame.outputs.lock().unwrap_or_else(PoisonError::into_inner);
+        let of_output = frame.resources.groups_of(&mut outputs, output);
+        encoder.clear_buffer(&frame.resources.tiles, 0, None);
+        encoder.copy_buffer_to_buffer(&self.no_dispatch, 0, &frame.resources.dispatch, 0, None);
+        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+            label: Some(settings.label.as_str()),
+            timestamp_writes: settings.timestamps.as_ref().map(|timestamps| timestamps.of_compute_pass()),
+        });
+        pass.set_bind_group(0, groups[0], &[]);
+        pass.set_bind_group(BindGroup1::INDEX, groups[1], &[]);
+        pass.set_pipeline(&self.classify);
+        pass.set_bind_group(SubsurfaceComputeBindGroup2::INDEX, &of_output.classify, &[]);
+        pass.dispatch_workgroups(frame.tile_columns, frame.tile_rows, 1);
+        let first = self.first.iter().map(|first| (first, &of_output.first));
+        for (pipeline, group) in first.chain([(&self.diffuse, &of_output.second)]) {
+            pass.set_pipeline(pipeline);
+            pass.set_bind_group(SubsurfaceComputeBindGroup2::INDEX, group, &[]);
+            pass.dispatch_workgroups_indirect(&frame.resources.dispatch, 0);
+        }
+    }
+}
+
+impl ComputeFrame {
+    /// Lets go of the outputs.
+    pub(super) fn forget_outputs(&mut self) {
+        self.outputs.get_mut().unwrap_or_else(PoisonError::into_inner).clear();
+    }
+}
+
+impl Resources {
+    /// The groups of `output`, which come to the front of the list.
+    fn groups_of<'a>(
+        &self,
+        known: &'a mut Vec<OutputGroups>,
+        output: &wgpu::TextureView,
+    ) -> &'a OutputGroups {
+        match known.iter().position(|groups| groups.output == *output) {
+            Some(place) => known[..=place].rotate_right(1),
+            None => {
+                known.truncate(OUTPUTS_KEPT - 1);
+                known.insert(0, self.groups(output));
+            }
+        }
+        &known[0]
+    }
+
+    fn groups(&self, output: &wgpu::TextureView) -> OutputGroups {
+        let find = |format| self.intermediates.iter().find(|target| target.texture.format() == format);
+        let four_words = find(wgpu::TextureFormat::Rgba32Uint).unwrap_or(&self.unused_four_words);
+        let two_words = find(wgpu::TextureFormat::Rg32Uint).unwrap_or(&self.unused_two_words);
+        let group = |read: [&Target; 3], written: [&Target; 3], arguments: &wgpu::Buffer, label: &str| {
             SubsurfaceComputeBindGroup2 {
                 intermediate_source: &read[0].view,
                 second_intermediate_source: &read[1].view,
@@ -130,92 +224,50 @@ impl ComputePath {
                 four_word_target: &written[0].view,
                 two_word_target: &written[1].view,
                 pixel_target: &written[2].view,
-                tiles: tiles.as_entire_buffer_binding(),
+                tiles: self.tiles.as_entire_buffer_binding(),
                 dispatch_arguments: arguments.as_entire_buffer_binding(),
                 diffused_target: output,
             }
-            .create(device, &self.layout, label)
+            .create(&self.device, &self.layout, label)
         };
-        let unread = [&nothing; 3];
-        let classify_group = group(
-            unread,
-            [four_words, &unused_two_words, &pixels],
-            &dispatch,
-            "SubsurfacePass classification bind group",
-        );
-        let first_group = group(
-            [&nothing, &nothing, &pixels],
-            [four_words, two_words, &unused_pixels],
-            &unused_dispatch,
-            "SubsurfacePass first stage bind group",
-        );
-        let at = |index: usize| intermediates.get(index).unwrap_or(&nothing);
-        let second_group = group(
-            [at(0), at(1), &pixels],
-            [&unused_four_words, &unused_two_words, &unused_pixels],
-            &unused_dispatch,
-            "SubsurfacePass stage bind group",
-        );
-        Ok(ComputeFrame {
-            tiles,
-            dispatch,
-            tile_columns,
-            tile_rows,
-            classify_group,
-            first_group,
-            second_group,
-        })
-    }
-
-    pub(super) fn encode(
-        &self,
-        encoder: &mut wgpu::CommandEncoder,
-        frame: &ComputeFrame,
-        groups: [&wgpu::BindGroup; 2],
-    ) {
-        encoder.clear_buffer(&frame.tiles, 0, None);
-        encoder.copy_buffer_to_buffer(&self.no_dispatch, 0, &frame.dispatch, 0, None);
-        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
-            label: Some("SubsurfacePass"),
-            timestamp_writes: None,
-        });
-        pass.set_bind_group(0, groups[0], &[]);
-        pass.set_bind_group(BindGroup1::INDEX, groups[1], &[]);
-        pass.set_pipeline(&self.classify);
-        pass.set_bind_group(SubsurfaceComputeBindGroup2::INDEX, &frame.classify_group, &[]);
-        pass.dispatch_workgroups(frame.tile_columns, frame.tile_rows, 1);
-        for (pipeline, group) in self
-            .first
-            .iter()
-            .map(|first| (first, &frame.first_group))
-            .chain([(&self.diffuse, &frame.second_group)])
-        {
-            pass.set_pipeline(pipeline);
-            pass.set_bind_group(SubsurfaceComputeBindGroup2::INDEX, group, &[]);
-            pass.dispatch_workgroups_indirect(&frame.dispatch, 0);
+        let nothing = &self.nothing;
+        let at = |index: usize| self.intermediates.get(index).unwrap_or(nothing);
+        let [classify, first, second] = &self.labels;
+        OutputGroups {
+            output: output.clone(),
+            classify: group(
+                [nothing; 3],
+                [four_words, &self.unused_two_words, &self.pixels],
+                &self.dispatch,
+                classify,
+            ),
+            first: group(
+                [nothing, nothing, &self.pixels],
+                [four_words, two_words, &self.unused_pixels],
+                &self.unused_dispatch,
+                first,
+            ),
+            second: group(
+                [at(0), at(1), &self.pixels],
+                [&self.unused_four_words, &self.unused_two_words, &self.unused_pixels],
+                &self.unused_dispatch,
+                second,
+            ),
         }
     }
 }
 
-/// The layout of the stages' textures and lists. The bindings know the result's format of a sample; a kernel has its
-/// own.
-fn layout(device: &wgpu::Device, kernel: &KernelParts) -> wgpu::BindGroupLayout {
+/// The layout of the stages' textures and lists, with a result of `format`: the bindings know that of a sample.
+fn layout(device: &wgpu::Device, label: &str, format: wgpu::TextureFormat) -> wgpu::BindGroupLayout {
+    let of_sample = texture_format(OutputFormat::default());
     let mut entries = SubsurfaceComputeBindGroup2::LAYOUT_ENTRIES;
     for entry in &mut entries {
-        if let (
-            wgpu::BindingType::StorageTexture {
-                format: wgpu::TextureFormat::Rgba16Float,
-                access,
-                view_dimension,
-            },
-            Some(format),
-        ) = (entry.ty, texture_format(kernel.module().output_format()))
+        if let wgpu::BindingType::StorageTexture { format: stored, .. } = &mut entry.ty
+            && Some(*stored) == of_sample
         {
-            entry.ty = wgpu::BindingType::StorageTexture { format, access, view_dimension };
+            *stored = format;
         }
     }
-    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-        label: Some("SubsurfacePass compute layout"),
-        entries: &entries,
-    })
+    device
+        .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some(label), entries: &entries })
 }

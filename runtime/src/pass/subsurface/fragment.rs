@@ -4,24 +4,31 @@ use crate::bindings::kernel::{
     BindGroup1, ENTRY_FIRST_FRAGMENT, ENTRY_PACK_FRAGMENT, ENTRY_PASSTHROUGH_FRAGMENT,
     ENTRY_SUBSURFACE_FRAGMENT, ENTRY_SUBSURFACE_VERTEX, SubsurfaceFragmentBindGroup2,
 };
-use crate::error::SizeError;
-use crate::pass::{cleared, covering_pipeline};
-use crate::target::{Extent, TRANSLUCENT_STENCIL, Target};
+use crate::extent::Extent;
+use crate::gbuffer::TRANSLUCENT_STENCIL;
+use crate::loaded_kernel::LoadedKernel;
+use crate::pass::covering_pipeline::CoveringPipeline;
+use crate::pass::{attachment, cleared};
+use crate::target::Target;
+use crate::viewport::Viewport;
+use crate::wgpu;
 use subsurface_kernel::Estimator;
-use subsurface_kernel::KernelParts;
 
+use super::descriptor::Settings;
 use super::intermediate::{Intermediate, intermediates, packed_pixels};
 
 /// Pipelines.
 #[derive(Debug)]
 pub(super) struct FragmentPath {
-    kind: Estimator,
+    estimator: Estimator,
     pack: Option<wgpu::RenderPipeline>,
     first: Option<wgpu::RenderPipeline>,
     diffuse: wgpu::RenderPipeline,
     /// Copies what the stencil leaves out; without a stencil the one pipeline does both.
     passthrough: Option<wgpu::RenderPipeline>,
     layout: wgpu::BindGroupLayout,
+    pack_label: String,
+    first_label: String,
 }
 
 /// What depends on the frame's size.
@@ -39,84 +46,88 @@ pub(super) struct FragmentFrame {
 impl FragmentPath {
     pub(super) fn new(
         device: &wgpu::Device,
-        kernel: &KernelParts,
-        module: &wgpu::ShaderModule,
+        kernel: &LoadedKernel,
+        settings: &Settings,
         groups: [&wgpu::BindGroupLayout; 2],
-        format: wgpu::TextureFormat,
-        stencil: Option<wgpu::TextureFormat>,
     ) -> Self {
-        let layout = SubsurfaceFragmentBindGroup2::layout(device, "SubsurfacePass fragment layout");
+        let label = &settings.label;
+        let layout = SubsurfaceFragmentBindGroup2::layout(device, &label.of("fragment layout"));
         let layouts = [Some(groups[0]), Some(groups[1]), Some(&layout)];
-        let pipeline = |label, entry, compare| {
-            let stencil = stencil.map(|format| read_only_stencil(format, compare));
-            covering_pipeline(
-                device,
-                label,
-                module,
-                (ENTRY_SUBSURFACE_VERTEX, entry),
-                &layouts,
-                &[Some(format.into())],
-                stencil,
-            )
+        let pipeline = |name, entry, targets: &[wgpu::TextureFormat], depth_stencil| {
+            let targets: Vec<_> = targets.iter().map(|format| Some((*format).into())).collect();
+            CoveringPipeline {
+                label: &label.of(name),
+                module: kernel.shader_module(),
+                entries: (ENTRY_SUBSURFACE_VERTEX, entry),
+                constants: settings.constants(),
+                bind_group_layouts: &layouts,
+                targets: &targets,
+                depth_stencil,
+                cache: settings.pipeline_cache.as_ref(),
+            }
+            .create(device)
         };
-        let kind = kernel.module().estimator();
-        let before = |label, entry, targets: &[Intermediate]| {
-            let targets: Vec<_> = targets.iter().map(|target| Some(target.format.into())).collect();
-            let entries = (ENTRY_SUBSURFACE_VERTEX, entry);
-            covering_pipeline(device, label, module, entries, &layouts, &targets, None)
-        };
-        let pack = kind
+        let stencil = |compare| settings.stencil.map(|format| read_only_stencil(format, compare));
+        let estimator = kernel.estimator();
+        let pack = estimator
             .packs_pixels()
-            .then(|| before("SubsurfacePass packing", ENTRY_PACK_FRAGMENT, &[packed_pixels(kind)]));
-        let first = kind
-            .has_two_stages()
-            .then(|| before("SubsurfacePass first stage", ENTRY_FIRST_FRAGMENT, intermediates(kind)));
-        let diffuse =
-            pipeline("SubsurfacePass pipeline", ENTRY_SUBSURFACE_FRAGMENT, wgpu::CompareFunction::Equal);
-        let passthrough = stencil.map(|_| {
-            let label = "SubsurfacePass passthrough pipeline";
-            pipeline(label, ENTRY_PASSTHROUGH_FRAGMENT, wgpu::CompareFunction::NotEqual)
+            .then(|| pipeline("packing", ENTRY_PACK_FRAGMENT, &[packed_pixels(estimator).format], None));
+        let first = estimator.has_two_stages().then(|| {
+            let formats: Vec<_> = intermediates(estimator).iter().map(|texture| texture.format).collect();
+            pipeline("first stage", ENTRY_FIRST_FRAGMENT, &formats, None)
         });
-        Self { kind, pack, first, diffuse, passthrough, layout }
+        let output = &[settings.format];
+        let equal = stencil(wgpu::CompareFunction::Equal);
+        let diffuse = pipeline("pipeline", ENTRY_SUBSURFACE_FRAGMENT, output, equal);
+        let passthrough = stencil(wgpu::CompareFunction::NotEqual).map(|not_equal| {
+            pipeline("passthrough pipeline", ENTRY_PASSTHROUGH_FRAGMENT, output, Some(not_equal))
+        });
+        let (pack_label, first_label) = (label.of("packing"), label.of("first stage"));
+        Self { estimator, pack, first, diffuse, passthrough, layout, pack_label, first_label }
     }
 
-    /// Targets between the stages for frames of `size`.
-    pub(super) fn frame(&self, device: &wgpu::Device, size: Extent) -> Result<FragmentFrame, SizeError> {
+    /// Targets between the stages for viewports of `size`.
+    pub(super) fn frame(&self, device: &wgpu::Device, settings: &Settings, size: Extent) -> FragmentFrame {
         let usage = wgpu::TextureUsages::RENDER_ATTACHMENT;
-        let intermediates = intermediates(self.kind)
-            .iter()
-            .map(|intermediate| intermediate.target(device, size, usage))
-            .collect::<Result<Vec<_>, _>>()?;
-        let pixels = packed_pixels(self.kind).target(device, size, usage)?;
-        let nothing = Intermediate::single(wgpu::TextureFormat::Rg32Uint, "SubsurfacePass nothing");
-        let nothing = nothing.target(device, size, usage)?;
-        let group = |read: [&Target; 3], label| {
+        let label = &settings.label;
+        let target = |texture: &Intermediate| texture.target(device, label, size, usage);
+        let intermediates: Vec<_> = intermediates(self.estimator).iter().map(target).collect();
+        let pixels = target(&packed_pixels(self.estimator));
+        let nothing = target(&Intermediate::single(wgpu::TextureFormat::Rg32Uint, "nothing"));
+        let group = |read: [&Target; 3], name| {
             SubsurfaceFragmentBindGroup2 {
                 intermediate_texture: &read[0].view,
                 second_intermediate_texture: &read[1].view,
                 pixel_texture: &read[2].view,
             }
-            .create(device, &self.layout, label)
+            .create(device, &self.layout, &label.of(name))
         };
-        let pack_group = group([&nothing; 3], "SubsurfacePass packing bind group");
-        let first_group = group([&nothing, &nothing, &pixels], "SubsurfacePass first stage bind group");
+        let pack_group = group([&nothing; 3], "packing bind group");
+        let first_group = group([&nothing, &nothing, &pixels], "first stage bind group");
         let at = |index: usize| intermediates.get(index).unwrap_or(&nothing);
-        let second_group = group([at(0), at(1), &pixels], "SubsurfacePass stage bind group");
-        Ok(FragmentFrame { pixels, intermediates, pack_group, first_group, second_group })
+        let second_group = group([at(0), at(1), &pixels], "stage bind group");
+        FragmentFrame { pixels, intermediates, pack_group, first_group, second_group }
     }
 
     pub(super) fn encode(
         &self,
         encoder: &mut wgpu::CommandEncoder,
+        settings: &Settings,
         frame: &FragmentFrame,
         groups: [&wgpu::BindGroup; 2],
-        output: &wgpu::TextureView,
-        depth_stencil: Option<&wgpu::TextureView>,
+        output: &Output<'_>,
     ) {
+        let timestamps = settings.timestamps.as_ref();
+        let mut is_first = true;
+        let mut writes = |is_last| {
+            let is_first = std::mem::replace(&mut is_first, false);
+            timestamps.and_then(|timestamps| timestamps.of_render_pass(is_first, is_last))
+        };
         if let Some(pack) = &self.pack {
             let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-                label: Some("SubsurfacePass packing"),
+                label: Some(&self.pack_label),
                 color_attachments: &[cleared(&frame.pixels.view, wgpu::Color::TRANSPARENT)],
+                timestamp_writes: writes(false),
                 ..Default::default()
             });
             bind(&mut pass, groups, &frame.pack_group);
@@ -129,31 +140,60 @@ impl FragmentPath {
                 *attachment = cleared(&target.view, wgpu::Color::TRANSPARENT);
             }
             let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-                label: Some("SubsurfacePass first stage"),
+                label: Some(&self.first_label),
                 color_attachments: &attachments[..frame.intermediates.len()],
+                timestamp_writes: writes(false),
                 ..Default::default()
             });
             bind(&mut pass, groups, &frame.first_group);
             pass.set_pipeline(first);
             pass.draw(0..3, 0..1);
         }
-        let depth_stencil_attachment = depth_stencil.map(|view| {
+        let depth_stencil_attachment = output.depth_stencil.map(|view| {
             // No operations: both aspects are read-only, so the depth may be sampled meanwhile.
             wgpu::RenderPassDepthStencilAttachment { view, depth_ops: None, stencil_ops: None }
         });
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some("SubsurfacePass"),
-            color_attachments: &[cleared(output, wgpu::Color::TRANSPARENT)],
+            label: Some(settings.label.as_str()),
+            color_attachments: &[output.attachment()],
             depth_stencil_attachment,
+            timestamp_writes: writes(true),
             ..Default::default()
         });
         bind(&mut pass, groups, &frame.second_group);
+        output.confine(&mut pass);
         if self.passthrough.is_some() {
             pass.set_stencil_reference(TRANSLUCENT_STENCIL);
         }
         for pipeline in std::iter::once(&self.diffuse).chain(&self.passthrough) {
             pass.set_pipeline(pipeline);
             pass.draw(0..3, 0..1);
+        }
+    }
+}
+
+/// Where a render pass writes its result.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Output<'a> {
+    pub(super) view: &'a wgpu::TextureView,
+    pub(super) depth_stencil: Option<&'a wgpu::TextureView>,
+    pub(super) viewport: Viewport,
+    /// Whether the viewport is all of the output.
+    pub(super) is_whole: bool,
+}
+
+impl<'a> Output<'a> {
+    /// Cleared, unless what lies outside of the viewport is somebody else's.
+    pub(super) fn attachment(&self) -> Option<wgpu::RenderPassColorAttachment<'a>> {
+        let clear = wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT);
+        attachment(self.view, if self.is_whole { clear } else { wgpu::LoadOp::Load })
+    }
+
+    /// Keeps fragments to the viewport.
+    pub(super) fn confine(&self, pass: &mut wgpu::RenderPass<'_>) {
+        if !self.is_whole {
+            let Viewport { x, y, width, height } = self.viewport;
+            pass.set_scissor_rect(x, y, width, height);
         }
     }
 }
