@@ -7,7 +7,7 @@ use crate::toolchain;
 use crate::{accuracy, tables, test};
 
 /// What every change passes before it is merged.
-pub(crate) const ALL: [Step; 12] = [
+pub(crate) const ALL: [Step; 13] = [
     FORMATTING,
     SPELLING,
     DEPENDENCIES,
