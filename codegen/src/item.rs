@@ -306,7 +306,9 @@ mod tests {
                 .text
                 .lines()
                 .filter(|line| {
-                    ["fn ", "struct ", "const ", "alias ", "var<"].iter().any(|word| line.starts_with(word))
+                    ["fn ", "struct ", "const ", "alias ", "override ", "var<"]
+                        .iter()
+                        .any(|word| line.starts_with(word))
                         || line.contains(" var")
                 })
                 .filter(|line| !line.starts_with(' ') && !line.starts_with('/'))

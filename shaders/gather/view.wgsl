@@ -24,3 +24,8 @@ fn span_mm(view: SubsurfaceView, distance_mm: f32) -> f32 {
     let span = abs(view.millimetres_per_pixel.x + view.millimetres_per_pixel.y * distance_mm);
     return max(span, SMALLEST_PIXEL_MM);
 }
+
+/// Position in the viewport of a fragment of the output.
+fn viewport_position(view: SubsurfaceView, fragment: vec4f) -> vec2i {
+    return vec2i(fragment.xy) - view.viewport_origin;
+}

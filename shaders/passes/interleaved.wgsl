@@ -1,4 +1,4 @@
-// uses: gather/{footprint, input, packed_pixel, point}, kernel/constants, kernels/interleaved, kernels/interleaved/{block_light, far_fields, receiver, ring}, lib/shared_exponent, passes/{subsurface, subsurface_fragment}
+// uses: gather/{footprint, input, packed_pixel, point, view}, kernel/constants, kernels/interleaved, kernels/interleaved/{block_light, far_fields, receiver, ring}, lib/shared_exponent, passes/{subsurface, subsurface_fragment}
 
 /// Taps per pixel of the far field.
 fn taps_at(point: SurfacePoint) -> f32 {
@@ -22,7 +22,7 @@ fn first_fragment(@builtin(position) position: vec4f) -> BlockTexels {
 /// Diffused irradiance of translucent pixels; every other pixel keeps its irradiance.
 @fragment
 fn subsurface_fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
-    let pixel = viewport_position(position);
+    let pixel = viewport_position(subsurface_view, position);
     let own = irradiance_at(pixel);
     let surface = unpack_surface(load_packed_pixel(pixel_texture, pixel).y);
     if surface.material == NO_MATERIAL {

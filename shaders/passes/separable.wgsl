@@ -1,4 +1,4 @@
-// uses: gather/{footprint, point}, kernels/separable, kernels/separable/taps, passes/{subsurface, subsurface_fragment}
+// uses: gather/{footprint, point, view}, kernels/separable, kernels/separable/taps, passes/{subsurface, subsurface_fragment}
 
 /// Taps per pixel.
 fn taps_at(point: SurfacePoint) -> f32 {
@@ -15,6 +15,6 @@ fn first_fragment(@builtin(position) position: vec4f) -> @location(0) vec2u {
 /// Diffused irradiance of translucent pixels; every other pixel keeps its irradiance.
 @fragment
 fn subsurface_fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
-    let pixel = viewport_position(position);
+    let pixel = viewport_position(subsurface_view, position);
     return blur_second(pixel, irradiance_at(pixel), intermediate_texture);
 }

@@ -3,8 +3,8 @@
 @group(1) @binding(0) var<uniform> subsurface_view: SubsurfaceView;
 /// Diffuse irradiance, red, green, blue; before the surface albedo.
 @group(1) @binding(1) var irradiance_texture: texture_2d<f32>;
-/// Surface albedo (red, green, blue) and, unless HAS_MATERIAL_IDS, the material number as a whole float; −1 where nothing
-/// is translucent.
+/// Surface albedo (red, green, blue) and, unless HAS_MATERIAL_IDS, the material number as a whole float; −1 where
+/// nothing is translucent.
 @group(1) @binding(2) var surface_texture: texture_2d<f32>;
 /// Depth in whatever form `subsurface_view.distance_from_depth` turns into millimetres.
 @group(1) @binding(3) var depth_texture: texture_2d<f32>;
@@ -22,11 +22,6 @@ fn texture_position(position: vec2i) -> vec2i {
     return position + subsurface_view.viewport_origin;
 }
 
-/// Position in the viewport of a fragment of the output.
-fn viewport_position(fragment: vec4f) -> vec2i {
-    return vec2i(fragment.xy) - subsurface_view.viewport_origin;
-}
-
 /// Whether the viewport has a pixel at `position`.
 fn is_inside(position: vec2i) -> bool {
     return all(position >= vec2i(0)) && all(position < subsurface_view.viewport_extent);
@@ -40,14 +35,6 @@ fn irradiance_at(position: vec2i) -> vec4f {
 /// Texel of the surface at `position`.
 fn surface_texel_at(position: vec2i) -> vec4f {
     return textureLoad(surface_texture, texture_position(position), 0);
-}
-
-/// Material number at `position`, or NO_MATERIAL.
-fn material_at(position: vec2i) -> i32 {
-    if HAS_MATERIAL_IDS {
-        return material_of_id(textureLoad(material_id_texture, texture_position(position), 0).r, MATERIALS_IN_SET);
-    }
-    return material_number(surface_texel_at(position).w, MATERIALS_IN_SET);
 }
 
 /// What a tap sees at `position`.
@@ -68,5 +55,10 @@ fn input_surface(position: vec2i) -> InputSurface {
     }
     let depth = textureLoad(depth_texture, texture_position(position), 0).r;
     let distance_mm = distance_from_depth_mm(depth, subsurface_view.distance_from_depth);
-    return surface_of_material(material_at(position), distance_mm);
+    if HAS_MATERIAL_IDS {
+        let id = textureLoad(material_id_texture, texture_position(position), 0).r;
+        return surface_of_material(material_of_id(id, MATERIALS_IN_SET), distance_mm);
+    }
+    let material = material_number(surface_texel_at(position).w, MATERIALS_IN_SET);
+    return surface_of_material(material, distance_mm);
 }

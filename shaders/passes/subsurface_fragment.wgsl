@@ -1,4 +1,4 @@
-// uses: lib/covering_triangle, passes/subsurface
+// uses: gather/view, lib/covering_triangle, passes/subsurface
 
 /// What the first stage of the kernel left for the second, if it has two.
 @group(2) @binding(0) var intermediate_texture: texture_2d<u32>;
@@ -16,5 +16,5 @@ fn subsurface_vertex(@builtin(vertex_index) index: u32) -> @builtin(position) ve
 /// Irradiance as it stands: for the pixels that the stencil leaves out.
 @fragment
 fn passthrough_fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
-    return irradiance_at(viewport_position(position));
+    return irradiance_at(viewport_position(subsurface_view, position));
 }
