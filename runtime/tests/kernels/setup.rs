@@ -5,6 +5,7 @@ use std::sync::{LazyLock, Mutex};
 use crate::buffers::Buffers;
 use crate::gpu::{Gpu, example_files, model, stems, table_files};
 use subsurface_codegen::{Compiler, Estimator, OutputFormat, Rejection};
+use subsurface_kernel::constants::FILTER_QUANTILE;
 use subsurface_profile::{Channel, Length, Medium, ModelKind, RadialProfile};
 use subsurface_runtime::{
     DebugView, GBuffer, KernelParts, Path, SubsurfaceDescriptor, SubsurfaceInputs, SubsurfacePass,
@@ -40,11 +41,9 @@ pub(crate) struct Description {
 }
 
 impl Description {
-    /// A material of every profile but dipoles and mixtures: their noise has no measured bounds yet (17 taps of
-    /// `ImportanceSampled` reach 0.19 of a step, others 0.1). The twins compare those models with f64.
+    /// A material of every profile.
     pub(crate) fn all_profiles(kernel: Estimator) -> Self {
         let mut stems = stems();
-        stems.retain(|stem| *stem != "mixture" && !stem.starts_with("dipole"));
         stems.sort_unstable();
         Self { kernel, rejection: Rejection::default(), stems, length_factor: 1.0 }
     }
@@ -131,6 +130,27 @@ pub(crate) fn profiles(stem: &str) -> [Box<dyn RadialProfile>; 3] {
         let medium = Medium::new(SURFACE_ALBEDO[channel.index()], MEAN_FREE_PATH_MM[channel.index()]);
         model.profile(medium.expect("in the domain"), channel).expect("a published model")
     })
+}
+
+/// How many taps of radii that are drawn from the widest channel stand for one of a channel's own: the mean square of
+/// their weights, Σ w² / n for n taps with a mean weight of 1 (Kish 1965, "effective sample size"). The largest of the
+/// channels; 1 where all are alike.
+pub(crate) fn taps_for_one(stem: &str) -> f64 {
+    // The middles of even strata.
+    const STRATA: u32 = 2000;
+    let profiles = profiles(stem);
+    let reach = |profile: &dyn RadialProfile| profile.filter_radius(FILTER_QUANTILE);
+    let widest =
+        profiles.iter().max_by(|a, b| reach(&***a).total_cmp(&reach(&***b))).expect("three channels");
+    let radii: Vec<f64> = (0..STRATA)
+        .map(|i| widest.sample_radius((f64::from(i) + 0.5) / f64::from(STRATA)))
+        .filter(|radius| widest.area_pdf(*radius) > 0.0)
+        .collect();
+    let of = |profile: &dyn RadialProfile| {
+        let weights = radii.iter().map(|radius| profile.area_pdf(*radius) / widest.area_pdf(*radius));
+        weights.map(|weight| weight * weight).sum::<f64>() / radii.len() as f64
+    };
+    profiles.iter().map(|profile| of(&**profile)).fold(1.0, f64::max)
 }
 
 /// Radius in mm that holds `quantile` of the widest channel's light.
