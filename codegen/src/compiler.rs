@@ -5,6 +5,7 @@ mod kernel_module;
 mod parameter_table;
 mod rows;
 mod runtime_bindings;
+mod shader_files;
 
 use std::path::{Path, PathBuf};
 
@@ -12,21 +13,23 @@ use proc_macro2::TokenStream;
 use quote::quote;
 use sha2::{Digest, Sha256};
 use subsurface_kernel::{Estimator, KernelModule as ModuleParts, KernelParts, OutputFormat, Rejection};
+use subsurface_quality::QualityReport;
 
 use crate::bindings::{self, Paths, SetBindings};
-use crate::diagnostics::{Diagnostic, Report};
+use crate::diagnostics::Diagnostic;
 use crate::emit::Choices;
 use crate::load::{Loaded, load_directory, load_memory};
 use crate::manifest::ManifestOf;
 use crate::material::MaterialSet;
 use crate::output::BuildError;
-use crate::quality::{QualityReport, solve};
+use crate::quality::{self, solve};
+use crate::report::Report;
 
 pub use compilation::Compilation;
-pub(crate) use compilation::{PROFILE_CURVES_FILE, PROFILE_TABLES_FILE};
 use kernel_module::{KernelModule, Wanted};
 use rows::Rows;
 pub use runtime_bindings::runtime_bindings;
+use shader_files::ShaderFiles;
 
 /// Name of the struct that is one row of the parameter table.
 const ROW: &str = "SubsurfaceMaterial";
@@ -209,7 +212,7 @@ impl Compiler {
         let quality = match request.map(|request| solve(&set, rejection, request)).transpose() {
             Ok(quality) => quality,
             Err(error) => {
-                report.push(error.into());
+                report.push(*error);
                 return Err(report);
             }
         };
@@ -229,7 +232,9 @@ impl Compiler {
         }
         let provenance = self.provenance(&report, &choices);
         let header = header(&set, &choices, quality.as_ref(), &provenance);
-        let wanted = Wanted { gbuffer: self.gbuffer, debug_views: self.debug_views, passes: &self.passes };
+        let shaders = &ShaderFiles::default();
+        let (gbuffer, debug_views, passes) = (self.gbuffer, self.debug_views, &self.passes);
+        let wanted = Wanted { shaders, gbuffer, debug_views, passes };
         let generated = KernelModule::generate(&set, &choices, wanted, &header, &mut report);
         let Some(KernelModule { linked, emitted, validated, reflection, row_binding }) = generated else {
             return Err(report);
@@ -410,7 +415,7 @@ fn header(set: &MaterialSet, choices: &Choices, quality: Option<&QualityReport>,
          // Provenance: {provenance}\n//\n// Estimator: {}\n{}// Rejects: {}\n//\n// Materials by number:\n",
         env!("CARGO_PKG_VERSION"),
         choices.estimator,
-        quality.map(QualityReport::comment).unwrap_or_default(),
+        quality.map(quality::comment).unwrap_or_default(),
         choices.rejection,
     );
     for (number, material) in set.materials.iter().enumerate() {

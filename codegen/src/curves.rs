@@ -3,31 +3,22 @@
 //! A kernel needs radii at given shares of the energy, and the inverse of a CDF costs more than a texel. So each model is
 //! tabulated here, per unit of its length, over the surface albedo and the share.
 
-use subsurface_kernel::constants::{CURVE_ROWS, CURVE_STEPS, EDGE_POWER};
-use subsurface_profile::description::{Contents, Dependence};
+use subsurface_kernel::constants::{CURVE_ROWS, EDGE_POWER};
 use subsurface_profile::{Channel, EdgeSpread, Medium, Model, RadialProfile};
 
-use crate::material::{Material, MaterialSet};
-use crate::source::Span;
-use crate::value::single;
+use subsurface_quality::NoProfile;
+use subsurface_quality::gather::curve::{
+    Knots, LARGEST_SURFACE_ALBEDO, NodesOf, STEPS as TEXELS, fraction, quantiles,
+};
 
-/// Texels of a row: intervals of the share.
-const TEXELS: usize = CURVE_STEPS as usize;
+use crate::material::{Material, MaterialSet};
+use crate::value::single;
 
 /// Rows of a model whose shape depends on the surface albedo.
 ///
 /// Node k lies at v = k/15 with A = 1 - (1 - v)²: profiles widen without bound as A nears 1, roughly as 1/√(1 - A), so
 /// nodes at even steps of √(1 - A) follow them.
 const NODES: u32 = 16;
-
-/// Largest surface albedo that is tabulated: at 1 itself the profile falls as r⁻³, and its last quantile is of no use.
-const LARGEST_SURFACE_ALBEDO: f64 = 0.999;
-
-/// The share that ends a row. The radius of the whole energy is infinite for most models.
-const LAST_SHARE: f64 = 0.9999;
-
-/// Least relative step between neighbouring radii: eight steps of an f32, so that they differ on the GPU too.
-const LEAST_STEP: f64 = 1e-6;
 
 /// Rows below each other: every device of WebGPU has textures of this height. Further rows stand beside them.
 const LARGEST_HEIGHT: usize = CURVE_ROWS as usize;
@@ -56,19 +47,6 @@ pub(crate) struct Curves {
 /// (value at the start of the interval, its growth over the interval) of this node, then of the next.
 type Row = [[f32; 4]; TEXELS];
 
-/// Values at the ends of all intervals.
-pub(crate) type Knots = [f64; TEXELS + 1];
-
-/// A surface albedo at which a model has no profile.
-#[derive(Clone, Debug)]
-pub(crate) struct NoProfile {
-    /// Where the model is written.
-    pub(crate) span: Span,
-    pub(crate) surface_albedo: f64,
-    /// What the model says.
-    pub(crate) reason: String,
-}
-
 impl Curves {
     /// Bakes the models of `set`, each once; with edge-spread functions if `with_edges`.
     pub(crate) fn bake(set: &MaterialSet, with_edges: bool) -> Result<Self, NoProfile> {
@@ -77,7 +55,7 @@ impl Curves {
         let mut curves: Vec<Row> = Vec::new();
         let mut edges: Vec<Row> = Vec::new();
         let mut places: Vec<CurvePlace> = Vec::new();
-        for material in &set.materials {
+        for (number, material) in set.materials.iter().enumerate() {
             let model = &material.profile.model;
             // Where curves are in mm, the lengths make another one of each.
             let lengths = (NodesOf::model(model) == NodesOf::Both).then_some(material.length_mm);
@@ -87,7 +65,7 @@ impl Curves {
             }
             model_of.push(models.len());
             models.push((model, lengths));
-            let profiles = Nodes::of(material)?;
+            let profiles = Nodes::of(material, number)?;
             let quantiles: Vec<Knots> = profiles.nodes.iter().map(|profile| quantiles(&**profile)).collect();
             let mut place = CurvePlace {
                 first_curve: row_number(curves.len()),
@@ -158,28 +136,6 @@ fn row_number(rows: usize) -> u32 {
     u32::try_from(rows).expect("2048 models have fewer than 2^32 texels")
 }
 
-/// What the rows of a model are for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum NodesOf {
-    /// The surface albedo: channels differ by it and by the length that the row is counted in.
-    SurfaceAlbedo,
-    /// The channel: lengths are absolute, and so are radii, in mm.
-    Channel,
-    /// Both, channel by channel; radii are in mm, for the material's own lengths.
-    Both,
-}
-
-impl NodesOf {
-    /// Those of a model. Mixtures have both, so that all of them are read alike.
-    pub(crate) fn model(model: &Model) -> Self {
-        match (model.contents(), model.dependence()) {
-            (Contents::Parts(_), _) | (_, Dependence::MediumAndChannel) => Self::Both,
-            (_, Dependence::Channel) => Self::Channel,
-            (_, Dependence::Medium) => Self::SurfaceAlbedo,
-        }
-    }
-}
-
 /// The profiles of one model that get a row each.
 struct Nodes {
     nodes: Vec<Box<dyn RadialProfile>>,
@@ -188,13 +144,13 @@ struct Nodes {
 }
 
 impl Nodes {
-    fn of(material: &Material) -> Result<Self, NoProfile> {
+    fn of(material: &Material, number: usize) -> Result<Self, NoProfile> {
         let model = &material.profile.model;
         let profile = |surface_albedo: f64, channel: Channel, length: f64| {
             Medium::new(surface_albedo, length)
                 .map_err(|error| error.to_string())
                 .and_then(|medium| model.profile(medium, channel).map_err(|error| error.to_string()))
-                .map_err(|reason| NoProfile { span: material.profile.span.clone(), surface_albedo, reason })
+                .map_err(|reason| NoProfile::new(number, surface_albedo, reason))
         };
         let albedos = || (0..NODES).map(surface_albedo);
         // Radii are per unit of the model's length, or in mm.
@@ -223,22 +179,6 @@ fn surface_albedo(node: u32) -> f64 {
     (1.0 - remainder * remainder).min(LARGEST_SURFACE_ALBEDO)
 }
 
-/// Radii within which the share u = 1 - (1 - t)² of the energy leaves, t = j/64: steps of t are finer in the tail,
-/// where radii grow fastest. Strictly increasing, so that a kernel can search for a radius.
-pub(crate) fn quantiles(profile: &dyn RadialProfile) -> Knots {
-    let mut last = 0.0;
-    std::array::from_fn(|index| {
-        let beyond = 1.0 - fraction(index);
-        let share = if index == TEXELS { LAST_SHARE } else { 1.0 - beyond * beyond };
-        let radius = profile.sample_radius(share);
-        if index > 0 {
-            let least = last * (1.0 + LEAST_STEP) + f64::from(f32::MIN_POSITIVE);
-            last = if radius > least { radius } else { least };
-        }
-        last
-    })
-}
-
 /// The edge-spread function F(x): the share of the light of a line source at 0 that leaves before x; 1/2 at x = 0.
 fn edge(profile: &dyn RadialProfile, reach: f64) -> Knots {
     let spread = EdgeSpread::new(profile);
@@ -249,11 +189,6 @@ fn edge(profile: &dyn RadialProfile, reach: f64) -> Knots {
         last = spread.at(reach * t.powi(EDGE_POWER)).clamp(last, 1.0);
         last
     })
-}
-
-/// j/64.
-fn fraction(index: usize) -> f64 {
-    index as f64 / TEXELS as f64
 }
 
 fn row(own: &Knots, next: &Knots) -> Row {

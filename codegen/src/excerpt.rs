@@ -197,7 +197,8 @@ impl<'a> Files<'a> for Excerpts<'_> {
 
 #[cfg(test)]
 mod tests {
-    use crate::diagnostics::{Diagnostic, Report};
+    use crate::diagnostics::Diagnostic;
+    use crate::report::Report;
     use crate::source::Span;
 
     #[test]

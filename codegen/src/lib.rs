@@ -22,9 +22,12 @@ mod compose;
 mod constants;
 mod curves;
 pub mod diagnostics;
+mod dispatch_text;
 mod docs;
+mod draft;
 mod emit;
 mod excerpt;
+mod file_names;
 mod identifier;
 mod item;
 mod layout;
@@ -34,10 +37,13 @@ mod manifest;
 pub mod material;
 mod mixture_text;
 mod model_row;
+mod no_profile;
 mod output;
 mod profile_text;
 mod quality;
+mod quality_request;
 mod reflect;
+mod report;
 mod resolve;
 mod schema;
 pub mod source;
@@ -50,7 +56,7 @@ mod value;
 mod value_mismatch;
 
 pub use compiler::{Compilation, Compiler, Pass, runtime_bindings};
-pub use diagnostics::{Diagnostic, Report, Severity};
+pub use diagnostics::{Diagnostic, Severity};
 pub use load::{
     Checked, Loaded, LoadedProfile, LoadedTable, check_paths, load_directory, load_memory, load_profile,
     load_profile_file, load_radial_table,
@@ -58,6 +64,8 @@ pub use load::{
 pub use material::{Material, MaterialSet, ResolvedProfile};
 pub use output::BuildError;
 pub use profile_text::profile_file_text;
-pub use quality::{PictureReport, Quality, QualityReport, QualityRequest, Tier, TierReport};
+pub use quality_request::QualityRequest;
+pub use report::Report;
 pub use source::{FileId, SourceMap, Span, Spanned};
 pub use subsurface_kernel::{Estimator, KernelParts, OutputFormat, Rejected, Rejection};
+pub use subsurface_quality::{PictureReport, Quality, QualityReport, Tier, TierReport};

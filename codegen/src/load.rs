@@ -5,8 +5,9 @@ mod tables;
 
 use std::path::{Path, PathBuf};
 
-use crate::diagnostics::{Diagnostic, Report};
+use crate::diagnostics::Diagnostic;
 use crate::material::{MaterialSet, ResolvedProfile};
+use crate::report::Report;
 use crate::resolve::{ChainEnd, Files, Resolution, chain, unknown_profile};
 use crate::schema::{
     Decoder, MaterialFile, ProfileExpression, ProfileFile, SCHEMA_VERSION as VERSION, SET, SetFile,

@@ -3,13 +3,13 @@
 use naga::{Module, ScalarKind};
 use serde_json::{Value, json};
 
-use crate::compiler::{PROFILE_CURVES_FILE, PROFILE_TABLES_FILE};
 use crate::docs::Docs;
 use crate::emit::Choices;
+use crate::file_names::{PROFILE_CURVES_FILE, PROFILE_TABLES_FILE};
 use crate::layout::{FieldType, structure};
 use crate::material::MaterialSet;
-use crate::quality::QualityReport;
 use crate::reflect::{Bound, Reflection, Resource, Sample};
+use subsurface_quality::QualityReport;
 
 /// Version of the manifest's own form.
 const MANIFEST_VERSION: u32 = 2;

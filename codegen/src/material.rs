@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use subsurface_profile::Model;
 
-use crate::quality::QualityRequest;
+use crate::quality_request::QualityRequest;
 use crate::source::Span;
 use subsurface_kernel::Estimator;
 use subsurface_kernel::Rejection;

@@ -5,7 +5,7 @@
 
 use std::fmt::Write as _;
 
-use crate::emit::{FUNCTIONS, emit_switch, function_call, profile_call};
+use crate::dispatch_text::{FUNCTIONS, emit_switch, function_call, profile_call};
 use crate::model_row::{ModelsInUse, PARTS, constant, has_shape, structure};
 
 /// What a profile has besides the coefficients that its model makes of a surface albedo.

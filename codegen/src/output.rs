@@ -3,7 +3,7 @@
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
-use crate::diagnostics::Report;
+use crate::report::Report;
 
 /// Why a build produced nothing.
 #[derive(Debug, thiserror::Error)]

@@ -8,10 +8,11 @@ use std::collections::{BTreeMap, BTreeSet};
 use subsurface_profile::{Channel, Length, Medium};
 
 use crate::diagnostics::Diagnostic;
+use crate::draft::Draft;
 use crate::identifier::{self, camel_case, screaming_case};
 use crate::lint;
 use crate::material::{Material, ResolvedProfile};
-use crate::quality::QualityRequest;
+use crate::quality_request::QualityRequest;
 use crate::schema::{
     Given, LengthGiven, MaterialFile, ProfileExpression, ProfileFile, SET, SetFile, Triple, rounded,
 };
@@ -64,20 +65,6 @@ pub(crate) struct Resolution {
     /// The files that each file of a material leans on: bases and profiles.
     pub(crate) dependencies: BTreeMap<FileId, BTreeSet<FileId>>,
     users: BTreeMap<FileId, Vec<(String, Span)>>,
-}
-
-/// A material with the values of its bases filled in.
-#[derive(Debug)]
-pub(crate) struct Draft<'a> {
-    pub(crate) name: &'a str,
-    pub(crate) profile: ResolvedProfile,
-    /// Where the material names its profile, when the model is written in another file.
-    pub(crate) profile_name: Option<&'a Span>,
-    pub(crate) length: &'a LengthGiven,
-    pub(crate) surface_albedo: &'a Triple,
-    pub(crate) reflectance_at_normal: Option<&'a Spanned<f64>>,
-    pub(crate) roughness: Option<&'a Spanned<f64>>,
-    pub(crate) transmission_strength: Option<&'a Spanned<f64>>,
 }
 
 /// The fields of a material, its own or those of its nearest base that gives them.

@@ -4,7 +4,8 @@ use naga::front::wgsl::{Frontend, Options};
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 
 use crate::compose::{GLUE, Linked};
-use crate::diagnostics::{Diagnostic, Report};
+use crate::diagnostics::Diagnostic;
+use crate::report::Report;
 use crate::source::Span;
 
 /// What plain WebGPU offers without optional features.

@@ -56,6 +56,7 @@ mod mco;
 mod number;
 mod result;
 mod run;
+mod simulation;
 mod tally;
 mod walk;
 
@@ -65,4 +66,5 @@ pub use layer_error::LayerError;
 pub use mci::parse_mci;
 pub use mci_error::{MciError, MciProblem};
 pub use result::LayerResult;
-pub use run::{LayerProgress, LayerRun, OutputFormat};
+pub use run::{LayerRun, OutputFormat};
+pub use simulation::LayerProgress;

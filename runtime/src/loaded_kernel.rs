@@ -3,9 +3,10 @@
 use std::borrow::Cow;
 use std::sync::{Arc, OnceLock};
 
-use subsurface_kernel::{Estimator, KernelModule, KernelParts, OutputFormat, RowBinding};
+use subsurface_kernel::{Estimator, KernelModule, KernelParts, OutputFormat};
 
-use crate::material_table::MaterialTable;
+use crate::load_error::LoadError;
+use crate::material_table::{MaterialTable, storage_buffers};
 use crate::target::Target;
 use crate::texture_format::texture_format;
 use crate::wgpu;
@@ -39,52 +40,6 @@ struct Loaded {
     unit_scale: Target,
     /// Stands for material numbers that are not given: one pixel, which is not read.
     no_material_ids: Target,
-}
-
-/// A kernel that a device cannot hold.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[non_exhaustive]
-pub enum LoadError {
-    /// The curves are larger than a texture may be.
-    #[error(
-        "the profiles' curves are a texture of {width}×{height} texels, and this device allows {limit} per side: give \
-         the set fewer profiles, or ask for a larger `max_texture_dimension_2d`"
-    )]
-    Curves {
-        /// Width, texels.
-        width: u32,
-        /// Height, texels.
-        height: u32,
-        /// Largest side on the device.
-        limit: u32,
-    },
-    /// A table is larger than a buffer binding may be.
-    #[error(
-        "the kernel's {table} take {bytes} bytes, and this device binds {limit} at most: give the set fewer materials, \
-         or ask for a larger `{limit_name}`"
-    )]
-    Table {
-        /// What the table holds.
-        table: &'static str,
-        /// Bytes.
-        bytes: u64,
-        /// Largest binding on the device.
-        limit: u64,
-        /// Name of the limit in [`wgpu::Limits`].
-        limit_name: &'static str,
-    },
-    /// Tables in storage buffers that the device does not have.
-    #[error(
-        "the kernel reads {needed} table{s} from storage buffers, and a shader of this device has {limit}: ask for a \
-         larger `max_storage_buffers_per_shader_stage`, or give the set fewer materials and no tabulated profiles",
-        s = if *needed == 1 { "" } else { "s" }
-    )]
-    StorageBuffers {
-        /// Storage buffers that the kernel reads.
-        needed: u32,
-        /// What the device has.
-        limit: u32,
-    },
 }
 
 impl LoadedKernel {
@@ -194,9 +149,4 @@ impl LoadedKernel {
 fn shader_module(device: &wgpu::Device, label: &str, text: Cow<'_, str>) -> wgpu::ShaderModule {
     let source = wgpu::ShaderSource::Wgsl(text);
     device.create_shader_module(wgpu::ShaderModuleDescriptor { label: Some(label), source })
-}
-
-/// Storage buffers of group 0.
-pub(crate) fn storage_buffers(rows: RowBinding, has_profile_tables: bool) -> u32 {
-    u32::from(rows == RowBinding::Storage) + u32::from(has_profile_tables)
 }

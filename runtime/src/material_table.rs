@@ -5,7 +5,7 @@ use crate::wgpu::{self, util::DeviceExt as _};
 
 use subsurface_kernel::{KernelParts, RowBinding};
 
-use crate::loaded_kernel::{LoadError, storage_buffers};
+use crate::load_error::LoadError;
 
 /// Binding of the curves.
 const CURVES_BINDING: u32 = 2;
@@ -161,4 +161,9 @@ fn curves(device: &wgpu::Device, queue: &wgpu::Queue, kernel: &KernelParts) -> w
         label: Some("LoadedKernel curves"),
         ..Default::default()
     })
+}
+
+/// Storage buffers of group 0.
+pub(crate) fn storage_buffers(rows: RowBinding, has_profile_tables: bool) -> u32 {
+    u32::from(rows == RowBinding::Storage) + u32::from(has_profile_tables)
 }

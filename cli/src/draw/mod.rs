@@ -5,10 +5,12 @@
 
 mod buffers;
 pub mod device;
+mod diffuse;
 mod studio;
 mod uploaded;
 
-pub use buffers::{Buffers, PixelScale, diffuse};
+pub use buffers::{Buffers, PixelScale};
+pub use diffuse::diffuse;
 pub use studio::{Drawn, Frame, Shown, Studio, Timings};
 pub use uploaded::{Precision, Uploaded};
 

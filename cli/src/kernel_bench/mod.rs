@@ -10,6 +10,7 @@ pub mod contender;
 pub mod figure;
 pub mod goal;
 mod measure;
+pub mod outcome;
 pub mod report;
 pub mod scene_case;
 pub mod score;

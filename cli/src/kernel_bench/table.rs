@@ -1,6 +1,7 @@
 //! Reports as tables for terminals.
 
-use super::goal::{AtPsnr, CLOSER_DB, LARGEST_SHARE, OURS, Outcome, outcomes};
+use super::goal::{CLOSER_DB, LARGEST_SHARE};
+use super::outcome::{AtPsnr, OURS, Outcome, outcomes};
 use super::report::{Report, path_name};
 use super::{Contender as _, KernelContender, WITNESS};
 use crate::table::{Align, Table};

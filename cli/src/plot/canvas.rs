@@ -3,8 +3,8 @@
 //! plotters' own SVG backend rounds to whole pixels and writes a dashed line dash by dash. This one counts in tenths of
 //! a pixel, writes paths with relative coordinates, and knows dash patterns, dots and clipping.
 
-use super::legend::text_width;
-use super::{Colour, Dash};
+use super::ink::{Colour, Dash};
+use super::lettering::text_width;
 use plotters_backend::text_anchor::{HPos, VPos};
 use plotters_backend::{
     BackendColor, BackendCoord, BackendStyle, BackendTextStyle, DrawingBackend, DrawingErrorKind,

@@ -1,29 +1,23 @@
 //! The layout of a figure: title, panels, legend.
 
 use super::canvas::{Canvas, TENTHS};
+use super::figure::{Figure, Panel};
 use super::legend::Legend;
+use super::sheet::{Area, FONT_SIZE, MARGIN, Outcome, text};
 use super::strokes::{Clip, Strokes};
-use super::{Figure, Panel};
 use plotters::chart::ChartBuilder;
-use plotters::coord::Shift;
 use plotters::coord::ranged1d::ValueFormatter as _;
-use plotters::drawing::{DrawingArea, DrawingAreaErrorKind, IntoDrawingArea as _};
-use plotters::style::text_anchor::{HPos, Pos, VPos};
-use plotters::style::{Color as _, IntoFont as _, RGBColor, TextStyle};
-use std::convert::Infallible;
+use plotters::drawing::IntoDrawingArea as _;
+use plotters::style::text_anchor::HPos;
+use plotters::style::{Color as _, RGBColor};
 
 /// Sizes in tenths of a pixel.
-pub(super) const FONT_SIZE: i32 = 12 * TENTHS;
 const TITLE_SIZE: i32 = 13 * TENTHS;
 const TICK_SIZE: i32 = 11 * TENTHS;
 
 /// Sizes in pixels.
 const PANEL_HEIGHT: i32 = 360;
 const TITLE_HEIGHT: i32 = 26;
-pub(super) const MARGIN: i32 = 12;
-
-pub(super) type Area<'a> = DrawingArea<Canvas<'a>, Shift>;
-pub(super) type Outcome = Result<(), DrawingAreaErrorKind<Infallible>>;
 
 /// The figure as SVG.
 pub(super) fn draw(figure: &Figure) -> String {
@@ -53,11 +47,6 @@ pub(super) fn draw(figure: &Figure) -> String {
     drop(root);
     Canvas::finish(&mut svg);
     svg
-}
-
-/// A style of text whose place is its middle, vertically.
-pub(super) fn text(size: i32, horizontal: HPos) -> TextStyle<'static> {
-    TextStyle::from(("sans-serif", size).into_font()).pos(Pos::new(horizontal, VPos::Center))
 }
 
 fn draw_panel(area: &Area<'_>, panel: &Panel, index: usize) -> Outcome {

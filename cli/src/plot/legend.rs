@@ -1,8 +1,9 @@
 //! Which line is what: columns below the panels.
 
 use super::canvas::{Canvas, TENTHS};
-use super::draw::{Area, FONT_SIZE, MARGIN, Outcome, text};
-use super::{Figure, Mark, Series};
+use super::figure::{Figure, Mark, Series};
+use super::lettering::text_width;
+use super::sheet::{Area, FONT_SIZE, MARGIN, Outcome, text};
 use plotters::element::{Drawable, PointCollection};
 use plotters::style::text_anchor::HPos;
 use plotters_backend::{BackendCoord, DrawingErrorKind};
@@ -14,11 +15,6 @@ const TOP: i32 = 6 * TENTHS;
 const SAMPLE: i32 = 36 * TENTHS;
 const GAP: i32 = 8 * TENTHS;
 const COLUMN_GAP: i32 = 22 * TENTHS;
-
-/// Width of a text in the unit of its size, from the mean width of DejaVu's letters.
-pub(super) fn text_width(text: &str, size: f64) -> f64 {
-    0.6 * size * text.chars().count() as f64
-}
 
 /// One entry for each label of a figure.
 pub(super) struct Legend<'a> {

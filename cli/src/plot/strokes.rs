@@ -1,8 +1,8 @@
 //! What is drawn between the axes.
 
 use super::canvas::{Canvas, TENTHS};
+use super::figure::{Mark, Series};
 use super::thin::thinned;
-use super::{Mark, Series};
 use plotters::element::{Drawable, PointCollection};
 use plotters_backend::{BackendCoord, DrawingErrorKind};
 use std::convert::Infallible;

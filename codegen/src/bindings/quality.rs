@@ -3,7 +3,7 @@
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
 
-use crate::quality::{QualityReport, TierReport};
+use subsurface_quality::{QualityReport, TierReport};
 
 /// The error as constants, and the tiers as an enum.
 pub(crate) fn quality_tokens(report: &QualityReport) -> TokenStream {

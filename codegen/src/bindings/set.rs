@@ -3,8 +3,8 @@
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
 
-use crate::compiler::{PROFILE_CURVES_FILE, PROFILE_TABLES_FILE};
 use crate::docs::Docs;
+use crate::file_names::{PROFILE_CURVES_FILE, PROFILE_TABLES_FILE};
 use crate::identifier::camel_case;
 use crate::layout::{FieldType, Structure, structure};
 use crate::material::MaterialSet;

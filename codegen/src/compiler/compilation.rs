@@ -4,16 +4,11 @@ use std::path::{Path, PathBuf};
 
 use subsurface_kernel::{Estimator, KernelParts, Rejection};
 
-use crate::diagnostics::Report;
+use crate::file_names::{PROFILE_CURVES_FILE, PROFILE_TABLES_FILE};
 use crate::material::MaterialSet;
 use crate::output::{self, BuildError};
-use crate::quality::QualityReport;
-
-/// File of the tables of tabulated profiles, beside the WGSL.
-pub(crate) const PROFILE_TABLES_FILE: &str = "subsurface.tables";
-
-/// File of the curves of all profiles, beside the WGSL.
-pub(crate) const PROFILE_CURVES_FILE: &str = "subsurface.curves";
+use crate::report::Report;
+use subsurface_quality::QualityReport;
 
 /// What a set compiles to.
 #[derive(Clone, Debug)]

@@ -1,23 +1,27 @@
 //! The kernel module of a set, from its materials to a validated text.
 
 use subsurface_kernel::{DebugView, Estimator, RowBinding};
-use subsurface_shaders::{GATHER, KERNELS, LIBRARY, LIGHT, Module, PASSES, PROFILES};
+use subsurface_shaders::Module;
 
 use crate::compose::{Files, LinkError, Linked, link};
 use crate::constants::shared_constants;
-use crate::diagnostics::{Diagnostic, Report};
+use crate::diagnostics::Diagnostic;
 use crate::emit::{Choices, Emitted, emit, material_constant};
 use crate::material::MaterialSet;
+use crate::no_profile::no_profile;
 use crate::reflect::{Reflection, reflect};
+use crate::report::Report;
 use crate::validate::{Validated, validate};
 
+use super::shader_files::ShaderFiles;
 use super::{DEFECT, Pass, parameter_table};
 
 const GBUFFER_ENTRIES: [&str; 2] = ["gbuffer_vertex", "gbuffer_fragment"];
 
-/// What a module holds beside the subsurface pass.
+/// What a module holds beside the subsurface pass, and where it comes from.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Wanted<'a> {
+    pub(super) shaders: &'a ShaderFiles,
     pub(super) gbuffer: bool,
     pub(super) debug_views: bool,
     /// Passes of the caller's own.
@@ -45,20 +49,16 @@ impl KernelModule {
         let mut emitted = match emit(set, choices) {
             Ok(emitted) => emitted,
             Err(error) => {
-                report.push(error.into());
+                report.push(no_profile(set, &error));
                 return None;
             }
         };
         let in_use = |module: &&Module| {
             emitted.models.iter().any(|model| module.name == format!("profiles/{}", model.description().stem))
         };
-        let rooms: Vec<Module> = [LIBRARY, GATHER, KERNELS, LIGHT]
-            .into_iter()
-            .flatten()
-            .chain(PROFILES.iter().filter(in_use))
-            .copied()
-            .chain([shared_constants()])
-            .collect();
+        let ShaderFiles { rooms, profiles, .. } = wanted.shaders;
+        let rooms: Vec<Module> =
+            rooms.iter().chain(profiles.iter().filter(in_use)).copied().chain([shared_constants()]).collect();
         let of_house = pass_files(choices.estimator, wanted);
         let guests: Vec<Module> =
             wanted.passes.iter().map(|pass| Module { name: pass.name, text: pass.text }).collect();
@@ -128,7 +128,8 @@ fn pass_files(estimator: Estimator, wanted: Wanted<'_>) -> Vec<Module> {
     if wanted.gbuffer {
         stems.push("gbuffer");
     }
-    let pass = |stem: &&str| PASSES.iter().find(|module| module.name.strip_prefix("passes/") == Some(stem));
+    let passes = &wanted.shaders.passes;
+    let pass = |stem: &&str| passes.iter().find(|module| module.name.strip_prefix("passes/") == Some(stem));
     stems.iter().filter_map(pass).copied().collect()
 }
 

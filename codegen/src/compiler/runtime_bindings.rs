@@ -6,13 +6,14 @@ use subsurface_shaders::{LIBRARY, Module, PASSES};
 
 use crate::bindings::{self, Paths};
 use crate::compose::{Files, Glue, link};
-use crate::diagnostics::{Diagnostic, Report};
+use crate::diagnostics::Diagnostic;
 use crate::emit::Choices;
 use crate::reflect::reflect;
+use crate::report::Report;
 use crate::validate::validate;
 use subsurface_kernel::OutputFormat;
 
-use super::{Compiler, DEFECT, KernelModule, ROW, Wanted};
+use super::{Compiler, DEFECT, KernelModule, ROW, ShaderFiles, Wanted};
 
 /// Rust modules `shadow`, `composite` and `kernel` with the typed bindings of the runtime's own passes.
 ///
@@ -66,7 +67,8 @@ pub fn runtime_bindings() -> Result<String, Report> {
         rejection: set.rejection,
         output_format: OutputFormat::default(),
     };
-    let wanted = Wanted { gbuffer: true, debug_views: true, passes: &[] };
+    let shaders = &ShaderFiles::default();
+    let wanted = Wanted { shaders, gbuffer: true, debug_views: true, passes: &[] };
     let Some(kernel) = KernelModule::generate(&set, &choices, wanted, "", &mut report) else {
         return Err(report);
     };

@@ -4,7 +4,7 @@ use subsurface_profile::description::Contents;
 use subsurface_profile::{Channel, GaussianTerm};
 
 use crate::diagnostics::Diagnostic;
-use crate::resolve::Draft;
+use crate::draft::Draft;
 use crate::schema::rounded;
 
 /// Published weights are rounded to three decimals, so a sum may miss by one unit of the last.

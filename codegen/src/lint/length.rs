@@ -4,7 +4,7 @@ use subsurface_profile::Length;
 use subsurface_profile::single_scattering_albedo::{Entry, from_surface_albedo};
 
 use crate::diagnostics::Diagnostic;
-use crate::resolve::Draft;
+use crate::draft::Draft;
 use crate::schema::rounded;
 
 /// Longest plausible mean free path in mm. Clear materials reach centimetres; a metre is a unit error, or glass.

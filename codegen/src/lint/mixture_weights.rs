@@ -3,7 +3,7 @@
 use subsurface_profile::description::Contents;
 
 use crate::diagnostics::Diagnostic;
-use crate::resolve::Draft;
+use crate::draft::Draft;
 use crate::schema::rounded;
 
 /// Weights are written with three decimals, so a sum may miss by one unit of the last.

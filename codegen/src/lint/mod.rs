@@ -9,7 +9,7 @@ mod table_range;
 mod transmission;
 
 use crate::diagnostics::Diagnostic;
-use crate::resolve::Draft;
+use crate::draft::Draft;
 
 pub(crate) use length::diffuse_per_mean_free_path;
 

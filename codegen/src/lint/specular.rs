@@ -1,7 +1,7 @@
 //! Specular values outside what translucent materials have.
 
 use crate::diagnostics::Diagnostic;
-use crate::resolve::Draft;
+use crate::draft::Draft;
 use crate::schema::rounded;
 
 /// Below this the highlight of a light is narrower than a pixel and flickers.

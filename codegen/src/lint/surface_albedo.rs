@@ -1,7 +1,7 @@
 //! Surface albedos that no measured material has.
 
 use crate::diagnostics::Diagnostic;
-use crate::resolve::Draft;
+use crate::draft::Draft;
 
 /// Warns of a surface albedo of exactly 1: nothing is absorbed, the profile falls only as r⁻³ and its mean radius is
 /// infinite. 0 is not warned of: a black channel of a saturated colour is common, and harmless.

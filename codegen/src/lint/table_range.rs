@@ -4,7 +4,7 @@ use subsurface_profile::description::Contents;
 use subsurface_profile::{Channel, TabulatedModel};
 
 use crate::diagnostics::Diagnostic;
-use crate::resolve::Draft;
+use crate::draft::Draft;
 use crate::schema::rounded;
 
 /// Surface albedos are written with three decimals, so one that means the end of a table may miss it by half a unit of

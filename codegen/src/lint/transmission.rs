@@ -1,7 +1,7 @@
 //! Transmission that adds light.
 
 use crate::diagnostics::Diagnostic;
-use crate::resolve::Draft;
+use crate::draft::Draft;
 use crate::schema::rounded;
 
 /// Up to here the factor is taste; beyond, thin parts outshine the light behind them.

@@ -6,7 +6,8 @@ use std::io::{self, Read};
 use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 
-use crate::diagnostics::{Diagnostic, Report};
+use crate::diagnostics::Diagnostic;
+use crate::report::Report;
 use crate::source::{FileId, Span};
 use crate::table::LARGEST_TABLE;
 

@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 
 use subsurface_profile::{RadialData, TabulatedModel};
 
-use crate::diagnostics::{Diagnostic, Report};
+use crate::diagnostics::Diagnostic;
+use crate::report::Report;
 use crate::schema::{Decoder, Tables};
 use crate::source::{Span, Spanned};
 use crate::table::Table;

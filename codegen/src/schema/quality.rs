@@ -1,13 +1,14 @@
 //! The error that a set allows its kernel.
 
 use crate::diagnostics::Diagnostic;
-use crate::quality::{Quality, QualityRequest, Tier};
+use crate::quality_request::QualityRequest;
 use crate::schema::body::Body;
 use crate::schema::choice::{no_word, unknown_word};
 use crate::schema::decoder::{Decoder, Fields, Given};
 use crate::suggestion::shortened;
 use crate::syntax::{Node, Shape};
 use subsurface_kernel::Estimator;
+use subsurface_quality::{Quality, Tier};
 
 const WORDS: [&str; 5] = ["MaxError", "Low", "Medium", "High", "Ultra"];
 

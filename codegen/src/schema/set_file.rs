@@ -1,7 +1,7 @@
 //! The file that describes the set itself.
 
 use crate::diagnostics::Diagnostic;
-use crate::quality::QualityRequest;
+use crate::quality_request::QualityRequest;
 use crate::schema::body::Body;
 use crate::schema::choice::{choice, no_word, unknown_word};
 use crate::schema::decoder::{Decoder, Given, head};

@@ -1,9 +1,7 @@
 //! How long a packet wanders in a layer.
 
-use super::layer::Layer;
-
 /// Order of magnitude of the mean number of scattering events of a packet in one layer, or of its reflections there where
-/// these are more.
+/// these are more; coefficients in cm⁻¹, the thickness in cm.
 ///
 /// A walk that enters a slab of τ scattering lengths leaves it after τ steps on average, most walks much earlier, a few
 /// after τ². Absorption with a probability ε = μa/μs per step ends walks longer than 1/ε, and the mean with them: the
@@ -12,14 +10,13 @@ use super::layer::Layer;
 ///
 /// Of diffuse light that meets the surface of a medium whose index is `trap` times that outside, one part in trap² is
 /// within the critical angle: so many times it comes back before it leaves, but never more than 1/ε scatterings.
-pub(super) fn expected_scatterings(layer: &Layer, trap: f64) -> f64 {
-    let scattering = layer.scattering_coefficient();
+pub(super) fn expected_scatterings(scattering: f64, absorption: f64, thickness: f64, trap: f64) -> f64 {
     if scattering == 0.0 {
         return 0.0;
     }
     let returns = (trap * trap).max(1.0);
-    let longest = scattering / layer.absorption_coefficient();
-    let by_thickness = (scattering * layer.thickness()).max(1.0) * returns;
+    let longest = scattering / absorption;
+    let by_thickness = (scattering * thickness).max(1.0) * returns;
     let by_absorption = longest.sqrt() * returns;
     by_thickness.min(by_absorption).min(longest)
 }

@@ -82,6 +82,11 @@ impl Layer {
         self.absorption_coefficient + self.scattering_coefficient
     }
 
+    /// How long a packet wanders in it, see `endless`.
+    fn expected_scatterings(&self, trap: f64) -> f64 {
+        expected_scatterings(self.scattering_coefficient, self.absorption_coefficient, self.thickness, trap)
+    }
+
     /// Whether light passes unchanged, as through glass.
     pub fn is_clear(&self) -> bool {
         self.extinction_coefficient() == 0.0
@@ -118,7 +123,7 @@ impl LayerStack {
         for (index, layer) in layers.iter().enumerate() {
             let outside = lowest_above.max(lowest_below[index]);
             lowest_above = lowest_above.min(layer.refractive_index());
-            let scatterings = expected_scatterings(layer, layer.refractive_index() / outside);
+            let scatterings = layer.expected_scatterings(layer.refractive_index() / outside);
             if scatterings > 1e4 {
                 return Err(LayerError::Endless { layer: index + 1, scatterings });
             }

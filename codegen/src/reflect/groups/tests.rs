@@ -2,8 +2,8 @@ use subsurface_shaders::Module;
 
 use super::*;
 use crate::compose::{Files, Glue, link};
-use crate::diagnostics::Report;
 use crate::reflect::{Reflection, Resource, reflect};
+use crate::report::Report;
 use crate::validate::validate;
 
 /// Links two modules, `passes/one` and `passes/two`, with an entry point each.

@@ -1,0 +1,106 @@
+//! Twin of `shaders/kernels/interleaved.wgsl`.
+
+mod agreement;
+mod block;
+mod far;
+mod near;
+mod ring;
+mod window;
+
+use subsurface_kernel::constants::{BLOCK_SIDE, PIXELS_OF_BLOCK};
+
+use crate::gather::gathered::{Gathered, Rgb};
+use crate::gather::point::Point;
+use crate::pictures::patch::{PATCH_SIDE, Patch};
+use crate::pictures::scene::Scene;
+
+use agreement::depth_agreement;
+use block::Block;
+use far::Lattice;
+use near::NearField;
+use ring::ring_light;
+use window::window_shares;
+
+/// The near field and the lattice of one footprint.
+#[derive(Debug)]
+pub(crate) struct Interleaved<'a> {
+    point: Point<'a>,
+    near: NearField,
+    /// Shares of the window, on the farther side first.
+    window: [f64; 3],
+    /// `None` where the footprint is too small for any tap.
+    lattice: Option<Lattice>,
+}
+
+impl<'a> Interleaved<'a> {
+    pub(crate) fn new(point: Point<'a>, taps: u32) -> Self {
+        let window = window_shares(taps);
+        let taps = point.footprint_taps(taps * PIXELS_OF_BLOCK);
+        let lattice = (taps > 0).then(|| Lattice::new(&point, taps));
+        Self { near: NearField::new(&point), point, window, lattice }
+    }
+
+    /// The pixels of a patch.
+    pub(crate) fn draw(&self, scene: Scene, patch: Patch) -> Vec<Rgb> {
+        let own = |pixel| {
+            let [x, y] = patch.in_scene(pixel);
+            [scene.light(x, y); 3]
+        };
+        let Some(lattice) = &self.lattice else { return patch.pixels().map(own).collect() };
+        // Those of the patch's pixels and the ones around.
+        let first = patch.start.map(|start| start.div_euclid(BLOCK_SIDE) - 1);
+        let last = patch.start.map(|start| (start + PATCH_SIDE - 1).div_euclid(BLOCK_SIDE) + 1);
+        let width = last[0] - first[0] + 1;
+        let blocks: Vec<Block> = (first[1]..=last[1])
+            .flat_map(|y| (first[0]..=last[0]).map(move |x| [x, y]))
+            .map(|block| Block::gather(lattice, &self.point, scene, patch, block))
+            .collect();
+        let block_at = |[x, y]: [i32; 2]| &blocks[((y - first[1]) * width + x - first[0]) as usize];
+        patch.pixels().map(|pixel| self.pixel(scene, patch, pixel, &block_at)).collect()
+    }
+
+    fn pixel<'b>(
+        &self,
+        scene: Scene,
+        patch: Patch,
+        pixel: [i32; 2],
+        block_at: &impl Fn([i32; 2]) -> &'b Block,
+    ) -> Rgb {
+        let [x, y] = patch.in_scene(pixel);
+        let own = [scene.light(x, y); 3];
+        let depth = scene.depth(x);
+        let home = pixel.map(|place| place.div_euclid(BLOCK_SIDE));
+        let [columns, rows] = pixel.map(|place| self.shares_of(place));
+        let mut mixed = Gathered::default();
+        let mut agreement = 0.0;
+        for (y, row) in (-1..).zip(rows) {
+            for (x, column) in (-1..).zip(columns) {
+                let block = block_at([home[0] + x, home[1] + y]);
+                let share = row * column * self.agreement(block.depth - depth);
+                mixed.add_share(&block.far, share);
+                agreement += share;
+            }
+        }
+        if agreement == 0.0 {
+            return own;
+        }
+        let mut gathered = Gathered::default();
+        gathered.add_share(&mixed, 1.0 / agreement);
+        gathered.add(self.near.centre, own);
+        if self.agreement(block_at(home).depth - depth) > 0.0 {
+            gathered.add_share(&ring_light(&self.near, &self.point, scene, [x, y]), 1.0);
+        }
+        gathered.diffused(own, self.point.returned)
+    }
+
+    /// Shares of a pixel's window in the blocks before its own along an axis, in it and behind it.
+    fn shares_of(&self, place: i32) -> [f64; 3] {
+        let [farther, own, nearer] = self.window;
+        if place.rem_euclid(BLOCK_SIDE) == 0 { [nearer, own, farther] } else { [farther, own, nearer] }
+    }
+
+    /// Share of a far field that counts `apart` pixels of depth away.
+    fn agreement(&self, apart: f64) -> f64 {
+        depth_agreement(self.point.depth_pixels(apart))
+    }
+}

@@ -1,0 +1,63 @@
+//! A kernel at a footprint, whichever it is.
+
+use subsurface_kernel::Estimator;
+use subsurface_kernel::constants::{EVEN_WINDOW_TAPS, PIXELS_OF_BLOCK};
+
+use crate::gather::gathered::Rgb;
+use crate::gather::point::Point;
+use crate::kernels::importance_sampled::ImportanceSampled;
+use crate::kernels::interleaved::Interleaved;
+use crate::kernels::separable::Separable;
+use crate::pictures::patch::Patch;
+use crate::pictures::scene::Scene;
+
+/// A kernel as the processor runs it.
+#[derive(Debug)]
+pub(crate) enum Twin<'a> {
+    ImportanceSampled(ImportanceSampled<'a>),
+    Separable(Separable<'a>),
+    Interleaved(Interleaved<'a>),
+}
+
+impl<'a> Twin<'a> {
+    /// The twin of a kernel; `None` for `Dense`, which has no error.
+    pub(crate) fn new(kernel: Estimator, point: Point<'a>) -> Option<Self> {
+        Some(match kernel {
+            Estimator::ImportanceSampled { taps } => {
+                Self::ImportanceSampled(ImportanceSampled::new(point, taps))
+            }
+            Estimator::Separable { taps, rotated } => Self::Separable(Separable::new(point, taps, rotated)),
+            Estimator::Interleaved { taps } => Self::Interleaved(Interleaved::new(point, taps)),
+            Estimator::Dense => return None,
+        })
+    }
+
+    /// A kernel with the taps that the footprint leaves of its own: those with the same draw the same.
+    pub(crate) fn effective(kernel: Estimator, point: &Point<'_>) -> Estimator {
+        match kernel {
+            Estimator::ImportanceSampled { taps } => {
+                Estimator::ImportanceSampled { taps: point.footprint_taps(taps) }
+            }
+            Estimator::Separable { taps, rotated } => {
+                Estimator::Separable { taps: point.footprint_taps(taps - 1) + 1, rotated }
+            }
+            // Its window narrows with the taps that are asked for, however many the footprint takes.
+            Estimator::Interleaved { taps } if f64::from(taps) > EVEN_WINDOW_TAPS => {
+                Estimator::Interleaved { taps: taps * PIXELS_OF_BLOCK }
+            }
+            Estimator::Interleaved { taps } => {
+                Estimator::Interleaved { taps: point.footprint_taps(taps * PIXELS_OF_BLOCK) }
+            }
+            Estimator::Dense => Estimator::Dense,
+        }
+    }
+
+    /// The pixels of a patch, row by row.
+    pub(crate) fn draw(&self, scene: Scene, patch: Patch) -> Vec<Rgb> {
+        match self {
+            Self::ImportanceSampled(twin) => twin.draw(scene, patch),
+            Self::Separable(twin) => twin.draw(scene, patch),
+            Self::Interleaved(twin) => twin.draw(scene, patch),
+        }
+    }
+}

@@ -1,0 +1,132 @@
+//! The profiles of one material, with tables of what is asked for often.
+
+mod density_table;
+pub(crate) mod line_spread;
+mod log_table;
+
+use subsurface_kernel::constants::FILTER_QUANTILE;
+use subsurface_profile::description::Dependence;
+use subsurface_profile::{Channel, Medium, Model, RadialProfile};
+
+use crate::gather::curve::{
+    Knots, LARGEST_SURFACE_ALBEDO, LAST_SHARE, NodesOf, mean_radius, quantile, quantiles,
+};
+use crate::material::Material;
+use crate::no_profile::NoProfile;
+
+use crate::gather::gathered::Rgb;
+use crate::kernels::separable::edge_spread::EdgeCurve;
+use density_table::DensityTable;
+use line_spread::{beyond_line, line_spread};
+use log_table::LogTable;
+
+/// What a material looks like, but for its size: equal ones are tried once.
+#[derive(Clone, Debug, PartialEq)]
+struct Appearance {
+    model: Model,
+    /// Lengths of the channels: the longest 1, or in mm where the model has absolute ones too.
+    lengths: Rgb,
+    surface_albedo: Rgb,
+}
+
+impl Appearance {
+    fn of(material: &Material<'_>) -> Self {
+        let model = material.model.clone();
+        let longest = material.length_mm.into_iter().fold(0.0, f64::max);
+        let (lengths, surface_albedo) = match model.dependence() {
+            // Neither plays a part.
+            Dependence::Channel => ([1.0; 3], [0.5; 3]),
+            Dependence::Medium => {
+                (material.length_mm.map(|length| length / longest), material.surface_albedo)
+            }
+            // Some lengths are in mm, and so all must be.
+            Dependence::MediumAndChannel => (material.length_mm, material.surface_albedo),
+        };
+        Self { model, lengths, surface_albedo }
+    }
+}
+
+/// The profiles of one material. Its unit of length is arbitrary.
+#[derive(Debug)]
+pub(crate) struct Optics {
+    pub(crate) channels: [ChannelOptics; 3],
+    /// The channel whose light goes farthest: radii are drawn from it.
+    pub(crate) widest: usize,
+    /// Mean radius of the widest channel.
+    pub(crate) mean_radius: f64,
+    /// Densities per area by radius.
+    pub(crate) densities: DensityTable,
+}
+
+/// The profile of one channel.
+#[derive(Debug)]
+pub(crate) struct ChannelOptics {
+    pub(crate) profile: Box<dyn RadialProfile>,
+    /// Quantile radii as the kernels read them.
+    pub(crate) curve: Knots,
+    /// Share of the light beyond a line as the kernels read it.
+    pub(crate) edge_curve: EdgeCurve,
+    /// Light per length beside a line, by distance.
+    pub(crate) line_spread: LogTable,
+}
+
+impl Optics {
+    /// The optics of a list of materials, those that look alike once.
+    pub(crate) fn of_all(materials: &[Material<'_>]) -> Result<Vec<Self>, NoProfile> {
+        let mut known: Vec<Appearance> = Vec::new();
+        let mut optics = Vec::new();
+        for (number, material) in materials.iter().enumerate() {
+            let appearance = Appearance::of(material);
+            if known.contains(&appearance) {
+                continue;
+            }
+            optics.push(Self::of(&appearance, number)?);
+            known.push(appearance);
+        }
+        Ok(optics)
+    }
+
+    fn of(appearance: &Appearance, material: usize) -> Result<Self, NoProfile> {
+        let profile = |channel: Channel, surface_albedo: f64| {
+            Medium::new(surface_albedo, appearance.lengths[channel.index()])
+                .map_err(|error| error.to_string())
+                .and_then(|medium| appearance.model.profile(medium, channel).map_err(|e| e.to_string()))
+                .map_err(|reason| NoProfile::new(material, surface_albedo, reason))
+        };
+        let channel = |channel: Channel| -> Result<ChannelOptics, NoProfile> {
+            let surface_albedo = appearance.surface_albedo[channel.index()];
+            let exact = profile(channel, surface_albedo)?;
+            let curve = quantiles(&*profile(channel, surface_albedo.min(LARGEST_SURFACE_ALBEDO))?);
+            // Edge curves of all surface albedos, or of all channels, end where the widest does.
+            let mut edge_reach = profile(channel, LARGEST_SURFACE_ALBEDO)?.sample_radius(LAST_SHARE);
+            if NodesOf::model(&appearance.model) != NodesOf::SurfaceAlbedo {
+                for other in Channel::ALL {
+                    edge_reach =
+                        edge_reach.max(profile(other, LARGEST_SURFACE_ALBEDO)?.sample_radius(LAST_SHARE));
+                }
+            }
+            let edge_curve = EdgeCurve::new(|distance| beyond_line(&*exact, distance), edge_reach);
+            let mean = mean_radius(&curve);
+            // From a twentieth of the smallest pixel to the last column of the largest; power laws go on beyond.
+            let (first, last) = (0.03 * mean, 600.0 * mean);
+            Ok(ChannelOptics {
+                line_spread: LogTable::new(first, last, |distance| line_spread(&*exact, distance)),
+                profile: exact,
+                curve,
+                edge_curve,
+            })
+        };
+        let [red, green, blue] = Channel::ALL.map(channel);
+        let channels = [red?, green?, blue?];
+        // As `surface_point` of the shaders: the first of equals.
+        let reach = [0, 1, 2].map(|channel: usize| quantile(&channels[channel].curve, FILTER_QUANTILE).0);
+        let red_or_green = if reach[0] >= reach[1] { 0 } else { 1 };
+        let widest = if reach[0].max(reach[1]) >= reach[2] { red_or_green } else { 2 };
+        let mean_radius = mean_radius(&channels[widest].curve);
+        // From less than a tenth of the smallest pixel to more than any filter's radius.
+        let densities = DensityTable::new(5e-3 * mean_radius, 600.0 * mean_radius, |radius| {
+            [0, 1, 2].map(|channel: usize| channels[channel].profile.area_pdf(radius))
+        });
+        Ok(Self { channels, widest, mean_radius, densities })
+    }
+}
