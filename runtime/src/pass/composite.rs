@@ -1,15 +1,13 @@
 //! Pass 4: radiance, tone mapping, sRGB.
 
 use crate::bindings::composite::{self, BindGroup0, ENTRY_COMPOSITE_FRAGMENT, ENTRY_COMPOSITE_VERTEX, WGSL};
-use crate::extent::Extent;
 use crate::input::{BindError, Holds, Input};
 use crate::label::Label;
-use crate::output::{FrameError, Output, Progress};
+use crate::output::FrameError;
 use crate::timestamps::Timestamps;
 use crate::wgpu;
 
-use super::covering_pipeline::CoveringPipeline;
-use super::{cleared, uniform_buffer};
+use super::covering_pass::{CoveringPass, CoveringPassDescriptor};
 
 const NAME: &str = "CompositePass";
 
@@ -98,48 +96,25 @@ impl Default for CompositeSettings {
 /// The picture's alpha is that of `unscattered`: 1 on geometry and 0 on the background, whose colour is written all the
 /// same. Colours are not multiplied by it.
 #[derive(Debug)]
-pub struct CompositePass {
-    label: Label,
-    pipeline: wgpu::RenderPipeline,
-    layout: wgpu::BindGroupLayout,
-    uniform: wgpu::Buffer,
-    format: wgpu::TextureFormat,
-    timestamps: Option<Timestamps>,
-    bound: Option<(Extent, wgpu::BindGroup)>,
-    progress: Progress,
-}
+pub struct CompositePass(CoveringPass);
 
 impl CompositePass {
     /// Pipeline and layout.
     pub fn new(device: &wgpu::Device, descriptor: &CompositeDescriptor<'_>) -> Self {
         let label = Label::new(descriptor.label, NAME);
         let layout = BindGroup0::layout(device, &label.of("layout"));
-        let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: Some(&label.of("module")),
-            source: wgpu::ShaderSource::Wgsl(WGSL.into()),
-        });
-        let pipeline = CoveringPipeline {
-            label: &label.of("pipeline"),
-            module: &module,
-            entries: (ENTRY_COMPOSITE_VERTEX, ENTRY_COMPOSITE_FRAGMENT),
-            constants: &[],
-            bind_group_layouts: &[Some(&layout)],
-            targets: &[Some(descriptor.format.into())],
-            depth_stencil: None,
-            cache: descriptor.pipeline_cache,
-        }
-        .create(device);
-        let uniform = uniform_buffer::<composite::CompositeSettings>(device, &label.of("settings"));
-        Self {
+        let of = CoveringPassDescriptor {
+            name: NAME,
             label,
-            pipeline,
+            wgsl: WGSL,
+            entries: (ENTRY_COMPOSITE_VERTEX, ENTRY_COMPOSITE_FRAGMENT),
             layout,
-            uniform,
             format: descriptor.format,
+            background: wgpu::Color::BLACK,
+            pipeline_cache: descriptor.pipeline_cache,
             timestamps: descriptor.timestamps.clone(),
-            bound: None,
-            progress: Progress::default(),
-        }
+        };
+        Self(CoveringPass::new::<composite::CompositeSettings>(device, of))
     }
 
     /// Binds the inputs. Call it again when a view is replaced; the pass has no target of its own.
@@ -153,14 +128,13 @@ impl CompositePass {
             Input::new(name, view).check(device, Holds::Colours)?.as_large_as(first)?;
         }
         let bind_group = BindGroup0 {
-            composite_settings: self.uniform.as_entire_buffer_binding(),
+            composite_settings: self.0.uniform(),
             diffused_texture: diffused,
             unscattered_texture: unscattered,
             surface_texture: surface,
         }
-        .create(device, &self.layout, &self.label.of("bind group"));
-        self.bound = Some((first.size(), bind_group));
-        self.progress = Progress::Bound;
+        .create(device, self.0.layout(), &self.0.label().of("bind group"));
+        self.0.bind(first.size(), bind_group);
         Ok(())
     }
 
@@ -169,8 +143,7 @@ impl CompositePass {
     /// # Errors
     /// Nothing is bound.
     pub fn prepare(&mut self, queue: &wgpu::Queue, settings: &CompositeSettings) -> Result<(), FrameError> {
-        self.progress.is_bound(NAME)?;
-        let encode = settings.tone_map && !self.format.is_srgb();
+        let encode = settings.tone_map && !self.0.format().is_srgb();
         let uniform = composite::CompositeSettings {
             background_top: settings.background[0],
             exposure: settings.exposure,
@@ -179,9 +152,7 @@ impl CompositePass {
             encode_srgb: u32::from(encode),
             padding_36: [0; 12],
         };
-        queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&uniform));
-        self.progress = Progress::Prepared;
-        Ok(())
+        self.0.prepare(queue, &uniform)
     }
 
     /// Records the pass into `output`, which has the inputs' size and the descriptor's format.
@@ -193,20 +164,6 @@ impl CompositePass {
         encoder: &mut wgpu::CommandEncoder,
         output: &wgpu::TextureView,
     ) -> Result<(), FrameError> {
-        self.progress.is_prepared(NAME)?;
-        let Some((size, bind_group)) = &self.bound else { return Err(FrameError::NotBound { pass: NAME }) };
-        let usage = wgpu::TextureUsages::RENDER_ATTACHMENT;
-        Output { pass: NAME, size: *size, format: self.format, usage }.check(output)?;
-        let timestamps = self.timestamps.as_ref();
-        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some(self.label.as_str()),
-            color_attachments: &[cleared(output, wgpu::Color::BLACK)],
-            timestamp_writes: timestamps.and_then(|timestamps| timestamps.of_render_pass(true, true)),
-            ..Default::default()
-        });
-        pass.set_pipeline(&self.pipeline);
-        pass.set_bind_group(0, bind_group, &[]);
-        pass.draw(0..3, 0..1);
-        Ok(())
+        self.0.encode(encoder, output)
     }
 }

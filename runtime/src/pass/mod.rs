@@ -1,6 +1,7 @@
 //! The four passes, and one beside them.
 
 pub mod composite;
+mod covering_pass;
 mod covering_pipeline;
 pub mod distance;
 pub mod gbuffer;
