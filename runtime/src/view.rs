@@ -38,9 +38,13 @@ impl SubsurfaceView {
         // depth = (z_from_z·z + z_offset) / (w_from_z·z + w_offset), distance = sign·z: solved for the distance.
         let sign = if w_from_z > 0.0 { 1.0 } else { -1.0 };
         let to_millimetres = sign * millimetres_per_world_unit;
+        // A pixel is 2/h of w, which is w_offset or grows with the distance by |w_from_z|.
         let per_pixel = 2.0 / (scale_y.abs() * height_pixels as f32);
-        let millimetres_per_pixel =
-            if w_from_z == 0.0 { [per_pixel * millimetres_per_world_unit, 0.0] } else { [0.0, per_pixel] };
+        let millimetres_per_pixel = if w_from_z == 0.0 {
+            [per_pixel * w_offset.abs() * millimetres_per_world_unit, 0.0]
+        } else {
+            [0.0, per_pixel * w_from_z.abs()]
+        };
         Self {
             distance_from_depth: [-to_millimetres * w_offset, to_millimetres * z_offset, w_from_z, -z_from_z],
             millimetres_per_pixel,
@@ -161,5 +165,18 @@ mod tests {
         let flat = glam::camera::rh::proj::directx::orthographic(-1.0, 1.0, -0.5, 0.5, 0.1, 10.0);
         let view = SubsurfaceView::from_projection(flat.to_cols_array_2d(), 100, 1000.0);
         assert!((view.millimetres_per_pixel(700.0) - 10.0).abs() < 1e-5);
+        // A factor on clip space changes nothing that is seen.
+        for (projection, pixel_mm) in [(projection, expected), (flat, 10.0)] {
+            let view = SubsurfaceView::from_projection((3.0 * projection).to_cols_array_2d(), 100, 1000.0);
+            assert!((view.millimetres_per_pixel(700.0) / pixel_mm - 1.0).abs() < 1e-6);
+            assert!(
+                (view.distance_mm(0.9)
+                    / SubsurfaceView::from_projection(projection.to_cols_array_2d(), 100, 1000.0)
+                        .distance_mm(0.9)
+                    - 1.0)
+                    .abs()
+                    < 1e-5
+            );
+        }
     }
 }

@@ -15,5 +15,10 @@ fn world_position(transform: ObjectTransform, position: vec3f) -> vec3f {
 /// The normal of a vertex in world space, as long as it was: between vertices normals are weighted by their length.
 fn world_normal(transform: ObjectTransform, normal: vec3f) -> vec3f {
     let turned = transform.world_from_object_normal * normal;
-    return turned * (length(normal) / length(turned));
+    let turned_length = length(turned);
+    // A transform that flattens the object leaves no direction to the normals within the plane.
+    if turned_length == 0.0 {
+        return normal;
+    }
+    return turned * (length(normal) / turned_length);
 }
