@@ -67,7 +67,7 @@ fn measured_materials_have_the_lengths_and_surface_albedos_of_their_source() {
             let surface_albedo = to_surface_albedo(Entry::Searchlight, scattering[channel] / extinction);
             // Written with four significant digits, so half a unit of the fourth: at most 5e-4 relative.
             let is_near = |a: f64, b: f64| (a - b).abs() <= 5e-4 * b;
-            assert!(is_near(material.length_mm[channel], 1.0 / extinction), "{name} {channel}");
+            assert!(is_near(material.mean_free_path_mm[channel], 1.0 / extinction), "{name} {channel}");
             assert!(is_near(material.surface_albedo[channel], surface_albedo), "{name} {channel}");
         }
     }

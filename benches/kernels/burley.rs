@@ -16,7 +16,8 @@ fn own(subject: &Subject) -> Option<[f64; 3]> {
     let Model::Burley(model) = &material.profile.model else { return None };
     let mut d = [0.0; 3];
     for (channel, d) in d.iter_mut().enumerate() {
-        let medium = Medium::new(material.surface_albedo[channel], material.length_mm[channel]).ok()?;
+        let medium =
+            Medium::new(material.surface_albedo[channel], material.mean_free_path_mm[channel]).ok()?;
         *d = model.profile(medium).ok()?.scattering_distance_mm();
     }
     Some(d)

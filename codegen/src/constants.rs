@@ -1,22 +1,36 @@
-//! The numbers that Rust and WGSL share, as a WGSL file.
+//! The numbers that Rust and WGSL share, as WGSL files.
 
 use std::fmt::Write as _;
 use std::sync::LazyLock;
 
 use subsurface_kernel::{ConstantValue, DebugView, constants};
+use subsurface_profile::SHARED_CONSTANTS;
 use subsurface_shaders::Module;
 
-/// Name under which a header names the file.
-const NAME: &str = "kernel/constants";
+static OF_KERNELS: LazyLock<String> = LazyLock::new(text_of_kernels);
+static OF_PROFILES: LazyLock<String> = LazyLock::new(text_of_profiles);
 
-static TEXT: LazyLock<String> = LazyLock::new(text);
-
-/// All constants of the contract; the linker keeps those that a module uses.
-pub(crate) fn shared_constants() -> Module {
-    Module { name: NAME, text: TEXT.as_str() }
+/// Constants of the contract, and coefficients of the profiles' formulas, under the names that headers use; the linker
+/// keeps those that a module takes.
+pub(crate) fn shared_constants() -> [Module; 2] {
+    [
+        Module { name: "kernel/constants", text: OF_KERNELS.as_str() },
+        Module { name: "profile/constants", text: OF_PROFILES.as_str() },
+    ]
 }
 
-fn text() -> String {
+fn text_of_profiles() -> String {
+    let mut text = String::new();
+    for constant in SHARED_CONSTANTS {
+        let values: Vec<String> = constant.values.iter().copied().map(number).collect();
+        let ty = format!("vec{}f", values.len());
+        let (docs, name) = (constant.docs, constant.name);
+        let _ = writeln!(text, "/// {docs}\nconst {name}: {ty} = {ty}({});\n", values.join(", "));
+    }
+    text
+}
+
+fn text_of_kernels() -> String {
     let mut text = String::new();
     for constant in constants::ALL {
         for line in constant.docs {
@@ -26,6 +40,7 @@ fn text() -> String {
             ConstantValue::F32(value) => ("f32", number(value)),
             ConstantValue::I32(value) => ("i32", value.to_string()),
             ConstantValue::U32(value) => ("u32", format!("{value}u")),
+            ConstantValue::Vec2(values) => ("vec2f", format!("vec2f({})", values.map(number).join(", "))),
             ConstantValue::Vec3(values) => ("vec3f", format!("vec3f({})", values.map(number).join(", "))),
             // A new type of the contract has to be spelled here before a shader can use it.
             _ => continue,
@@ -56,7 +71,7 @@ mod tests {
 
     #[test]
     fn every_constant_is_declared_with_its_value() {
-        let text = text();
+        let text = text_of_kernels();
         for line in [
             "const FILTER_QUANTILE: f32 = 0.997;",
             "const LARGEST_TAP_COUNT: u32 = 4096u;",
@@ -69,13 +84,17 @@ mod tests {
         assert!(text.contains("/// ½ log₃ 2\n"));
         let declared = items(&text).unwrap().items.len();
         assert_eq!(declared, constants::ALL.len() + DebugView::ALL.len());
-        naga::front::wgsl::parse_str(&text).unwrap();
+        for file in shared_constants() {
+            naga::front::wgsl::parse_str(file.text).unwrap();
+            assert!(file.text.lines().all(|line| line.chars().count() <= 120), "{}", file.text);
+        }
     }
 
     #[test]
     fn every_constant_is_used_by_a_shader() {
         use subsurface_shaders::{GATHER, KERNELS, LIBRARY, LIGHT, PASSES, PROFILES};
-        for item in items(&text()).unwrap().items {
+        let [kernels, profiles] = shared_constants();
+        for item in [kernels, profiles].iter().flat_map(|file| items(file.text).unwrap().items) {
             let mut house = [LIBRARY, GATHER, KERNELS, LIGHT, PROFILES, PASSES].into_iter().flatten();
             let uses = |module: &Module| {
                 items(module.text).unwrap().items.iter().any(|other| other.references.contains(item.name))

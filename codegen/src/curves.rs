@@ -8,17 +8,11 @@ use subsurface_profile::{Channel, EdgeSpread, Medium, Model, RadialProfile};
 
 use subsurface_quality::NoProfile;
 use subsurface_quality::gather::curve::{
-    Knots, LARGEST_SURFACE_ALBEDO, NodesOf, STEPS as TEXELS, fraction, quantiles,
+    Knots, NODES, NodesOf, STEPS as TEXELS, fraction, node_albedo, quantiles,
 };
 
 use crate::material::{Material, MaterialSet};
 use crate::value::single;
-
-/// Rows of a model whose shape depends on the surface albedo.
-///
-/// Node k lies at v = k/15 with A = 1 - (1 - v)²: profiles widen without bound as A nears 1, roughly as 1/√(1 - A), so
-/// nodes at even steps of √(1 - A) follow them.
-const NODES: u32 = 16;
 
 /// Rows below each other: every device of WebGPU has textures of this height. Further rows stand beside them.
 const LARGEST_HEIGHT: usize = CURVE_ROWS as usize;
@@ -58,7 +52,7 @@ impl Curves {
         for (number, material) in set.materials.iter().enumerate() {
             let model = &material.profile.model;
             // Where curves are in mm, the lengths make another one of each.
-            let lengths = (NodesOf::model(model) == NodesOf::Both).then_some(material.length_mm);
+            let lengths = (NodesOf::model(model) == NodesOf::Both).then_some(material.mean_free_path_mm);
             if let Some(known) = models.iter().position(|known| *known == (model, lengths)) {
                 model_of.push(known);
                 continue;
@@ -152,13 +146,13 @@ impl Nodes {
                 .and_then(|medium| model.profile(medium, channel).map_err(|error| error.to_string()))
                 .map_err(|reason| NoProfile::new(number, surface_albedo, reason))
         };
-        let albedos = || (0..NODES).map(surface_albedo);
+        let albedos = || (0..NODES).map(node_albedo);
         // Radii are per unit of the model's length, or in mm.
         let (nodes, run): (Result<Vec<_>, NoProfile>, u32) = match NodesOf::model(model) {
             NodesOf::SurfaceAlbedo => (albedos().map(|a| profile(a, Channel::Red, 1.0)).collect(), NODES),
             NodesOf::Channel => (Channel::ALL.into_iter().map(|c| profile(0.5, c, 1.0)).collect(), 1),
             NodesOf::Both => {
-                let of = |c: Channel| albedos().map(move |a| (a, c, material.length_mm[c.index()]));
+                let of = |c: Channel| albedos().map(move |a| (a, c, material.mean_free_path_mm[c.index()]));
                 (Channel::ALL.into_iter().flat_map(of).map(|(a, c, l)| profile(a, c, l)).collect(), NODES)
             }
         };
@@ -171,12 +165,6 @@ impl Nodes {
         let next = move |node: usize| if (node + 1).is_multiple_of(run) { node } else { node + 1 };
         (0..knots.len()).map(move |node| row(&knots[node], &knots[next(node)]))
     }
-}
-
-/// Surface albedo of a node.
-fn surface_albedo(node: u32) -> f64 {
-    let remainder = 1.0 - f64::from(node) / f64::from(NODES - 1);
-    (1.0 - remainder * remainder).min(LARGEST_SURFACE_ALBEDO)
 }
 
 /// The edge-spread function F(x): the share of the light of a line source at 0 that leaves before x; 1/2 at x = 0.

@@ -38,7 +38,7 @@ pub(crate) fn emit_switch(
 /// The call of a model's function that evaluates its coefficients, which are a member of `owner`.
 pub(crate) fn profile_call(kind: ModelKind, owner: &str) -> String {
     let Description { stem, lengths, .. } = kind.description();
-    let arguments = if lengths.is_empty() { "channel" } else { "surface_albedo, length_mm" };
+    let arguments = if lengths.is_empty() { "channel" } else { "surface_albedo, mean_free_path_mm" };
     format!("{stem}_profile({owner}.{stem}, {arguments})")
 }
 
@@ -54,20 +54,20 @@ pub(crate) fn emit_dispatch(text: &mut String, models: &ModelsInUse) {
     text.push_str("/// The profiles of the three channels of a material at a given surface albedo.\n");
     text.push_str(
         "fn material_profiles(row: SubsurfaceMaterial, surface_albedo: vec3f) -> ChannelProfiles {\n    \
-         return ChannelProfiles(\n        material_profile(row, surface_albedo.r, row.surface.length_mm.r, 0u),\n        \
-         material_profile(row, surface_albedo.g, row.surface.length_mm.g, 1u),\n        \
-         material_profile(row, surface_albedo.b, row.surface.length_mm.b, 2u),\n    );\n}\n\n",
+         return ChannelProfiles(\n        material_profile(row, surface_albedo.r, row.surface.mean_free_path_mm.r, 0u),\n        \
+         material_profile(row, surface_albedo.g, row.surface.mean_free_path_mm.g, 1u),\n        \
+         material_profile(row, surface_albedo.b, row.surface.mean_free_path_mm.b, 2u),\n    );\n}\n\n",
     );
     let (kinds, has_parts) = (&models.of_materials, models.most_parts > 0);
     text.push_str("/// The profile of one channel (0 red, 1 green, 2 blue) of a material.\n");
-    let head = "fn material_profile(\n    row: SubsurfaceMaterial,\n    surface_albedo: f32,\n    length_mm: f32,\n    \
+    let head = "fn material_profile(\n    row: SubsurfaceMaterial,\n    surface_albedo: f32,\n    mean_free_path_mm: f32,\n    \
                 channel: u32,\n) -> Profile";
     emit_switch(text, head, "row.surface.model", kinds, |kind| {
         let Description { stem, lengths, .. } = kind.description();
         let is_mixture = is_mixture(kind);
         let coefficients = if is_mixture { "vec4f()".to_owned() } else { profile_call(kind, "row") };
         let shape = match (is_mixture, has_shape(kind), has_parts) {
-            (true, ..) => format!("{stem}_shape(row.{stem}, surface_albedo, length_mm, channel)"),
+            (true, ..) => format!("{stem}_shape(row.{stem}, surface_albedo, mean_free_path_mm, channel)"),
             (_, true, true) => format!("ProfileShape(row.{stem}.shape, array<MixturePart, MIXTURE_PARTS>())"),
             (_, true, false) => format!("row.{stem}.shape"),
             (_, false, true) => "ProfileShape()".to_owned(),
@@ -76,7 +76,7 @@ pub(crate) fn emit_dispatch(text: &mut String, models: &ModelsInUse) {
         let curve = match (is_mixture, lengths) {
             (true, _) => "channel_albedo_curve(row.surface, channel, surface_albedo)",
             (_, []) => "channel_curve(row.surface, channel)",
-            _ => "albedo_curve(row.surface, surface_albedo, length_mm)",
+            _ => "albedo_curve(row.surface, surface_albedo, mean_free_path_mm)",
         };
         format!("Profile(\n    {},\n    {coefficients},\n    {shape},\n    {curve},\n)", constant(kind))
     });

@@ -75,7 +75,7 @@ pub(crate) fn emit(set: &MaterialSet, choices: &Choices) -> Result<Emitted, NoPr
 fn row(material: &Material, models: &ModelsInUse, place: &CurvePlace, shared: &mut Shared) -> Value {
     let (number, coefficients) = models.row(&material.profile.model, shared);
     let surface = Value::Struct(vec![
-        ("length_mm", Value::vector(material.length_mm)),
+        ("mean_free_path_mm", Value::vector(material.mean_free_path_mm)),
         ("model", Value::U32(number)),
         ("surface_albedo", Value::vector(material.surface_albedo)),
         ("reflectance_at_normal", Value::scalar(material.reflectance_at_normal)),

@@ -39,7 +39,7 @@ pub(crate) fn manifest(of: &ManifestOf<'_>, module: &Module, reflection: &Reflec
                 "name": material.name,
                 "docs": material.docs,
                 "profile": material.profile.stem,
-                "length_mm": material.length_mm,
+                "mean_free_path_mm": material.mean_free_path_mm,
                 "surface_albedo": material.surface_albedo,
                 "specular": {
                     "reflectance_at_normal": material.reflectance_at_normal,

@@ -21,7 +21,7 @@ pub struct Material {
     pub profile: ResolvedProfile,
     /// Length that scales the profile, per channel (red, green, blue), in mm, > 0: the mean free path ℓ = 1/σt or the
     /// diffuse mean free path ℓ_d = 1/σtr, as [`Model::length`] says.
-    pub length_mm: [f64; 3],
+    pub mean_free_path_mm: [f64; 3],
     /// Surface albedo A = ∫ R(r) 2πr dr per channel, in [0, 1].
     pub surface_albedo: [f64; 3],
     /// Fresnel reflectance at normal incidence F0, in [0, 1].

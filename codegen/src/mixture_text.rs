@@ -59,7 +59,7 @@ pub(crate) fn emit_mixtures(text: &mut String, models: &ModelsInUse) {
         let _ = writeln!(text, "    @align(16) {part}: MixturePartModel,");
     }
     text.push_str("}\n\n/// A part at a surface albedo, with lengths in mm.\n");
-    let head = "fn mixture_part(\n    part: MixturePartModel,\n    surface_albedo: f32,\n    length_mm: f32,\n    \
+    let head = "fn mixture_part(\n    part: MixturePartModel,\n    surface_albedo: f32,\n    mean_free_path_mm: f32,\n    \
                 channel: u32,\n) -> MixturePart";
     emit_switch(text, head, "part.model", &models.of_parts, |kind| {
         let shape = if has_shape(kind) {
@@ -72,11 +72,14 @@ pub(crate) fn emit_mixtures(text: &mut String, models: &ModelsInUse) {
     });
     text.push_str(
         "/// All parts at a surface albedo.\n\
-         fn mixture_shape(model: MixtureModel, surface_albedo: f32, length_mm: f32, channel: u32) -> ProfileShape {\n    \
+         fn mixture_shape(model: MixtureModel, surface_albedo: f32, mean_free_path_mm: f32, channel: u32) -> ProfileShape {\n    \
          return ProfileShape(\n        vec4f(),\n        array<MixturePart, MIXTURE_PARTS>(\n",
     );
     for part in parts {
-        let _ = writeln!(text, "            mixture_part(model.{part}, surface_albedo, length_mm, channel),");
+        let _ = writeln!(
+            text,
+            "            mixture_part(model.{part}, surface_albedo, mean_free_path_mm, channel),"
+        );
     }
     text.push_str("        ),\n    );\n}\n\n");
     for (function, argument, docs) in FUNCTIONS {

@@ -21,7 +21,7 @@ pub(crate) fn solve(
         .iter()
         .map(|material| Material {
             model: &material.profile.model,
-            length_mm: material.length_mm,
+            mean_free_path_mm: material.mean_free_path_mm,
             surface_albedo: material.surface_albedo,
         })
         .collect();

@@ -448,7 +448,7 @@ fn finish(file: &MaterialFile, draft: Draft<'_>) -> Material {
     Material {
         name: draft.name.to_owned(),
         docs: file.docs.clone(),
-        length_mm: draft.length.value.values,
+        mean_free_path_mm: draft.length.value.values,
         surface_albedo: draft.surface_albedo.values,
         reflectance_at_normal: number(draft.reflectance_at_normal, DEFAULT_REFLECTANCE_AT_NORMAL),
         roughness: number(draft.roughness, DEFAULT_ROUGHNESS),

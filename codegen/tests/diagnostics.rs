@@ -108,7 +108,7 @@ fn a_material_inherits_what_it_does_not_give() {
     assert_eq!(base.docs, ["Everything that can be given.", "", " Indented, with `code`."]);
     assert!(child.docs.is_empty());
     assert_eq!(child.surface_albedo, [0.1, 0.2, 0.3]);
-    assert_eq!(child.length_mm, base.length_mm);
+    assert_eq!(child.mean_free_path_mm, base.mean_free_path_mm);
     assert_eq!(child.profile.model, base.profile.model);
     assert_eq!((child.reflectance_at_normal, child.roughness), (0.04, 0.6));
     assert_eq!(child.transmission_strength, 0.5);

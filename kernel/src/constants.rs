@@ -25,6 +25,8 @@ pub enum ConstantValue {
     I32(i32),
     /// `u32`.
     U32(u32),
+    /// `vec2f`.
+    Vec2([f64; 2]),
     /// `vec3f`.
     Vec3([f64; 3]),
 }
@@ -48,6 +50,21 @@ constants! {
 
     /// Bound of every loop over taps.
     LARGEST_TAP_COUNT: U32(u32) = 4096;
+
+    /// Largest filter radius that counts taps, pixels.
+    LARGEST_FILTER_RADIUS: F32(f64) = 4096.0;
+
+    /// Taps farther than this many pixels count as this far: outside of any target, and exact as i32.
+    LARGEST_TAP_DISTANCE: F32(f64) = 32768.0;
+
+    /// cos and sin of the golden angle π(3 − √5): a step from tap to tap without a transcendental.
+    GOLDEN_TURN: Vec2([f64; 2]) = [-0.737_368_878_078_319_8, 0.675_490_294_261_524_1];
+
+    /// Interleaved gradient noise: weights of the column and the row, and the factor on their fraction.
+    GRADIENT_NOISE: Vec3([f64; 3]) = [0.067_110_56, 0.005_837_15, 52.982_918_9];
+
+    /// Smallest √(1 − u): u = 1 − 2^-24, the f32 before 1.
+    SMALLEST_ROOT: F32(f64) = 2.441_406_25e-4;
 
     /// Texels of a row of the profile curves: steps of a curve.
     CURVE_STEPS: U32(u32) = 64;
@@ -95,6 +112,9 @@ constants! {
     /// Least energy that stands for all of it. Where taps found less than this share, the centre's own light fills it
     /// up: what little comes from a surface far behind must not be raised to a whole.
     SMALLEST_ENERGY: F32(f64) = 1e-3;
+
+    /// A weight below this divides nothing.
+    SMALLEST_WEIGHT: F32(f64) = 1e-12;
 
     /// Largest weight of a tap: radii are drawn from one profile, and where another has far more light there, one tap
     /// must not outshine all others.

@@ -75,7 +75,7 @@ impl BurleyModel {
         if !(s > 0.0 && s.is_finite()) {
             return Err(SHAPE_POSITIVE.broken_at(surface_albedo, s));
         }
-        let scattering_distance_mm = medium.length_mm() / s;
+        let scattering_distance_mm = medium.mean_free_path_mm() / s;
         if !(scattering_distance_mm > 0.0 && scattering_distance_mm.is_finite()) {
             return Err(ModelError::OutOfNumericRange { quantity: "d", surface_albedo });
         }

@@ -2,6 +2,7 @@
 //!
 //! Source: Jensen, Marschner, Levoy and Hanrahan 2001, \[J01\].
 
+use std::ops::RangeInclusive;
 use std::slice::from_mut;
 
 use crate::description::{Coefficient, Description, Notation, ProfileModel, Published, Values, Variable};
@@ -9,6 +10,13 @@ use crate::dipole_source::DipoleSource;
 use crate::exponential_source_sum::ExponentialSourceSum;
 use crate::quantity::Bounds;
 use crate::{Channel, Medium, ModelError, Quantity, RadialProfile, Requirement};
+
+/// F_dr from η = 1 on: coefficients of η⁻², η⁻¹, 1 and η. \[J01\], after Groenhuis et al. 1983. The twin in WGSL takes
+/// them from here.
+pub(crate) const INTERNAL_REFLECTANCE: [f64; 4] = [-1.440, 0.710, 0.668, 0.0636];
+
+/// F_dr below η = 1: coefficients of 1, η⁻¹, η⁻² and η⁻³. Egan and Hilgeman 1979.
+pub(crate) const INTERNAL_REFLECTANCE_BELOW_1: [f64; 4] = [-0.4399, 0.7099, -0.3319, 0.0636];
 
 /// The classical dipole, \[J01\] eq. (4), from what was measured of a medium. With σt′ = σs′ + σa, α′ = σs′/σt′,
 /// s = √(3 σa σt′), z_r = 1/σt′, z_v = z_r (1 + 4A/3), A = (1 + F)/(1 - F) and d = √(r² + z²) of each source,
@@ -46,14 +54,15 @@ impl DipoleModel {
         refractive_index: 1.5,
     };
 
-    /// F_dr: the share of diffuse light that the surface reflects back inside. A rational fit: \[J01\], after Groenhuis
-    /// et al. 1983, from η = 1 on; Egan and Hilgeman 1979 below.
+    /// F_dr: the share of diffuse light that the surface reflects back inside.
     fn internal_reflectance(&self) -> f64 {
         let n = self.refractive_index;
         if n >= 1.0 {
-            -1.440 / (n * n) + 0.710 / n + 0.668 + 0.0636 * n
+            let [square, first, whole, rising] = INTERNAL_REFLECTANCE;
+            square / (n * n) + first / n + whole + rising * n
         } else {
-            -0.4399 + 0.7099 / n - 0.3319 / (n * n) + 0.0636 / (n * n * n)
+            let [whole, first, square, cube] = INTERNAL_REFLECTANCE_BELOW_1;
+            whole + first / n + square / (n * n) + cube / (n * n * n)
         }
     }
 
@@ -102,12 +111,14 @@ impl DipoleModel {
     }
 }
 
-/// The surface lets some light out.
-static SOME_LIGHT_LEAVES: Requirement = Requirement {
+/// Indices for which the fits of F_dr hold: A = (1 + F)/(1 - F) is within 0.4 % up to 2, and within 5 % up to the end.
+const REFRACTIVE_INDICES: RangeInclusive<f64> = 0.5..=2.5;
+
+static REFLECTANCE_IS_KNOWN: Requirement = Requirement {
     coefficient: "refractive_index",
-    wrong: "the surface reflects {} of the diffuse light back inside",
-    expected: "expected an index at which that is from 0 to below 1",
-    remedy: "the formula of the reflectance holds for indices from 0.3 to 3; skin has 1.3 to 1.4, stone 1.5",
+    wrong: "a refractive index of {} is beyond what the formula of the internal reflectance holds for",
+    expected: "expected an index from 0.5 to 2.5",
+    remedy: "skin has 1.3 to 1.4, stone 1.5",
 };
 
 /// A coefficient of a medium, per length.
@@ -182,9 +193,8 @@ impl ProfileModel for DipoleModel {
     }
 
     fn collect_errors(&self, errors: &mut Vec<ModelError>) {
-        let reflectance = self.internal_reflectance();
-        if self.refractive_index > 0.0 && !(0.0..1.0).contains(&reflectance) {
-            errors.push(SOME_LIGHT_LEAVES.broken_by(reflectance));
+        if self.refractive_index > 0.0 && !REFRACTIVE_INDICES.contains(&self.refractive_index) {
+            errors.push(REFLECTANCE_IS_KNOWN.broken_by(self.refractive_index));
         }
     }
 }
@@ -221,6 +231,35 @@ mod tests {
             z * (1.0 + s * d) * (-s * d).exp() / d.powi(3)
         };
         scattering / extinction / (4.0 * PI) * (source(real) + source(image))
+    }
+
+    /// 2 ∫ F(μ) μ dμ of Fresnel's reflectance F inside a medium.
+    fn fresnel_inside(refractive_index: f64) -> f64 {
+        const STEPS: u32 = 200_000;
+        let reflectance = |mu: f64| {
+            let sine = refractive_index * (1.0 - mu * mu).sqrt();
+            if sine >= 1.0 {
+                return 1.0;
+            }
+            let outside = (1.0 - sine * sine).sqrt();
+            let across = (refractive_index * mu - outside) / (refractive_index * mu + outside);
+            let along = (mu - refractive_index * outside) / (mu + refractive_index * outside);
+            0.5 * (across * across + along * along)
+        };
+        let mu = |step: u32| (f64::from(step) + 0.5) / f64::from(STEPS);
+        (0..STEPS).map(|step| 2.0 * mu(step) * reflectance(mu(step))).sum::<f64>() / f64::from(STEPS)
+    }
+
+    #[test]
+    fn the_internal_reflectance_is_fresnels() {
+        let boundary = |reflectance: f64| (1.0 + reflectance) / (1.0 - reflectance);
+        for (refractive_index, tolerance) in
+            [(0.5, 4e-3), (0.8, 4e-3), (1.0, 4e-3), (1.3, 4e-3), (1.5, 4e-3), (2.0, 4e-3), (2.5, 0.05)]
+        {
+            let found = DipoleModel { refractive_index, ..DipoleModel::SKIN1 }.internal_reflectance();
+            let (found, exact) = (boundary(found), boundary(fresnel_inside(refractive_index)));
+            assert!((found / exact - 1.0).abs() < tolerance, "{refractive_index}: {found}, {exact}");
+        }
     }
 
     #[test]
@@ -301,7 +340,10 @@ mod tests {
             ),
             (
                 DipoleModel { refractive_index: 4.0, ..good },
-                ["refractive_index", "the surface reflects 1.01 of the diffuse light back inside"],
+                [
+                    "refractive_index",
+                    "a refractive index of 4 is beyond what the formula of the internal reflectance holds for",
+                ],
             ),
             (
                 DipoleModel { refractive_index: f64::NAN, ..good },

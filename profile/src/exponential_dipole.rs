@@ -61,7 +61,7 @@ impl ExponentialDipoleModel {
         let dipole = DipoleSource::new(surface_albedo, depth, attenuation)?;
         Ok(ExponentialSourceSum::new(
             surface_albedo,
-            medium.length_mm(),
+            medium.mean_free_path_mm(),
             [exponential],
             [(1.0 - weight, dipole)],
         ))

@@ -57,7 +57,7 @@ impl Exponential {
 pub struct ExponentialSourceSum<const E: usize, const S: usize> {
     surface_albedo: f64,
     /// The length that all others are counted in, mm.
-    pub(crate) length_mm: f64,
+    pub(crate) mean_free_path_mm: f64,
     pub(crate) exponentials: [Exponential; E],
     /// Shares of all energy, and the sources.
     pub(crate) sources: [(f64, DipoleSource); S],
@@ -67,26 +67,26 @@ impl<const E: usize, const S: usize> ExponentialSourceSum<E, S> {
     /// A sum whose shares add up to 1.
     pub(crate) fn new(
         surface_albedo: f64,
-        length_mm: f64,
+        mean_free_path_mm: f64,
         exponentials: [Exponential; E],
         sources: [(f64, DipoleSource); S],
     ) -> Self {
-        ExponentialSourceSum { surface_albedo, length_mm, exponentials, sources }
+        ExponentialSourceSum { surface_albedo, mean_free_path_mm, exponentials, sources }
     }
 
     /// Decay lengths of the exponentials, mm.
     pub fn exponential_lengths_mm(&self) -> [f64; E] {
-        self.exponentials.map(|exponential| exponential.length * self.length_mm)
+        self.exponentials.map(|exponential| exponential.length * self.mean_free_path_mm)
     }
 
     /// Depths of the sources, mm.
     pub fn dipole_depths_mm(&self) -> [f64; S] {
-        self.sources.map(|(_, source)| source.depth * self.length_mm)
+        self.sources.map(|(_, source)| source.depth * self.mean_free_path_mm)
     }
 
     /// s, the decay of the sources' field, mm⁻¹. 0 where nothing is absorbed.
     pub fn dipole_attenuation_per_mm(&self) -> f64 {
-        self.sources.first().map_or(0.0, |(_, source)| source.attenuation / self.length_mm)
+        self.sources.first().map_or(0.0, |(_, source)| source.attenuation / self.mean_free_path_mm)
     }
 
     /// Shares of the energy, of the exponentials and then of the sources.
@@ -115,7 +115,7 @@ impl<const E: usize, const S: usize> ExponentialSourceSum<E, S> {
         }
         // Rounding may leave the last part a little more than its share.
         let log_q = (-legal_u(rest / weights[part])).ln_1p();
-        self.part_radius(part, log_q) * self.length_mm
+        self.part_radius(part, log_q) * self.mean_free_path_mm
     }
 
     /// The radius beyond which the part has the fraction e^(`log_q`), in the order of [`shares`](Self::shares).
@@ -127,7 +127,7 @@ impl<const E: usize, const S: usize> ExponentialSourceSum<E, S> {
     }
 
     fn unit_radius(&self, radius_mm: f64) -> f64 {
-        legal_radius(legal_radius(radius_mm) / self.length_mm)
+        legal_radius(legal_radius(radius_mm) / self.mean_free_path_mm)
     }
 
     fn unit_cdf(&self, r: f64) -> f64 {
@@ -196,12 +196,12 @@ impl<const E: usize, const S: usize> RadialProfile for ExponentialSourceSum<E, S
         let exponentials = self.exponential_pdf(r);
         let near = if exponentials > 0.0 { exponentials / (2.0 * PI * r) } else { 0.0 };
         let sources = self.sources.iter().map(|(weight, source)| weight * source.area_pdf(r));
-        sources.fold(near, |sum, source| sum + source) / self.length_mm / self.length_mm
+        sources.fold(near, |sum, source| sum + source) / self.mean_free_path_mm / self.mean_free_path_mm
     }
 
     /// Σ (w/d) e^(-r/d) + Σ w z r (1 + sρ) e^(-s(ρ - z))/ρ³, at length 1.
     fn radial_pdf(&self, radius_mm: f64) -> f64 {
-        self.unit_radial_pdf(self.unit_radius(radius_mm)) / self.length_mm
+        self.unit_radial_pdf(self.unit_radius(radius_mm)) / self.mean_free_path_mm
     }
 
     fn radial_cdf(&self, radius_mm: f64) -> f64 {
@@ -223,6 +223,6 @@ impl<const E: usize, const S: usize> RadialProfile for ExponentialSourceSum<E, S
         if u < f64::MIN_POSITIVE {
             return 0.0;
         }
-        self.log_quantile(u).0.exp() * self.length_mm
+        self.log_quantile(u).0.exp() * self.mean_free_path_mm
     }
 }

@@ -3,7 +3,7 @@
 use std::fmt;
 
 /// Which length of the medium a [`Model`](crate::Model) expects in
-/// [`Medium::length_mm`](crate::Medium::length_mm).
+/// [`Medium::mean_free_path_mm`](crate::Medium::mean_free_path_mm).
 ///
 /// The two are different quantities, not two units of one: no conversion happens behind the caller's back.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -65,6 +65,7 @@ pub mod quadrature;
 mod quantity;
 mod radial_data;
 mod radial_profile;
+mod shared_constant;
 pub mod single_scattering_albedo;
 mod tabulated;
 mod two_exponential_dipole;
@@ -86,5 +87,6 @@ pub use polynomial::{PolynomialA, PolynomialB, PolynomialC, PolynomialModel, Pol
 pub use quantity::{Bounds, Quantity, rounded};
 pub use radial_data::{RadialData, RadialDataError, RadialRow};
 pub use radial_profile::RadialProfile;
+pub use shared_constant::{SHARED_CONSTANTS, SharedConstant};
 pub use tabulated::{TabulatedError, TabulatedKnot, TabulatedModel, TabulatedProfile};
 pub use two_exponential_dipole::{TwoExponentialDipoleModel, TwoExponentialDipoleProfile};

@@ -8,23 +8,23 @@ use thiserror::Error;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Medium {
     surface_albedo: f64,
-    length_mm: f64,
+    mean_free_path_mm: f64,
 }
 
 impl Medium {
     /// A medium of surface albedo A in [0, 1], both ends included, and a finite length > 0 in mm.
     ///
-    /// Which length `length_mm` is, is for the model to say: [`Model::length`](crate::Model::length).
+    /// Which length `mean_free_path_mm` is, is for the model to say: [`Model::length`](crate::Model::length).
     /// All laws of this crate are tested for lengths from 1e-4 mm to 1e4 mm.
-    pub fn new(surface_albedo: f64, length_mm: f64) -> Result<Medium, MediumError> {
+    pub fn new(surface_albedo: f64, mean_free_path_mm: f64) -> Result<Medium, MediumError> {
         if !(0.0..=1.0).contains(&surface_albedo) {
             return Err(MediumError::SurfaceAlbedoOutOfRange { surface_albedo });
         }
-        if !(length_mm > 0.0 && length_mm.is_finite()) {
-            return Err(MediumError::LengthNotPositive { length_mm });
+        if !(mean_free_path_mm > 0.0 && mean_free_path_mm.is_finite()) {
+            return Err(MediumError::LengthNotPositive { mean_free_path_mm });
         }
         // The sum turns -0.0, which the range admits, into 0.0.
-        Ok(Medium { surface_albedo: surface_albedo + 0.0, length_mm })
+        Ok(Medium { surface_albedo: surface_albedo + 0.0, mean_free_path_mm })
     }
 
     /// Surface albedo A, the total diffuse reflectance, in [0, 1].
@@ -33,8 +33,8 @@ impl Medium {
     }
 
     /// Mean free path or diffuse mean free path in mm, finite and > 0.
-    pub fn length_mm(&self) -> f64 {
-        self.length_mm
+    pub fn mean_free_path_mm(&self) -> f64 {
+        self.mean_free_path_mm
     }
 }
 
@@ -49,10 +49,10 @@ pub enum MediumError {
         surface_albedo: f64,
     },
     /// The length is zero, negative, infinite or not a number.
-    #[error("length {length_mm} mm is not a finite number above 0")]
+    #[error("length {mean_free_path_mm} mm is not a finite number above 0")]
     LengthNotPositive {
         /// The value given, mm.
-        length_mm: f64,
+        mean_free_path_mm: f64,
     },
 }
 
@@ -74,8 +74,11 @@ mod tests {
                 Err(MediumError::SurfaceAlbedoOutOfRange { .. })
             ));
         }
-        for length_mm in [0.0, -0.0, -1.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
-            assert!(matches!(Medium::new(0.5, length_mm), Err(MediumError::LengthNotPositive { .. })));
+        for mean_free_path_mm in [0.0, -0.0, -1.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            assert!(matches!(
+                Medium::new(0.5, mean_free_path_mm),
+                Err(MediumError::LengthNotPositive { .. })
+            ));
         }
     }
 

@@ -215,7 +215,7 @@ impl Model {
         self.kind().description()
     }
 
-    /// Which length [`Medium::length_mm`] must be for this model.
+    /// Which length [`Medium::mean_free_path_mm`] must be for this model.
     ///
     /// A model that does not use it, see [`dependence`](Self::dependence), says [`Length::MeanFreePath`].
     pub fn length(&self) -> Length {

@@ -137,13 +137,13 @@ impl PolynomialModel {
         // eq. (17) at r_max, over -a c: what unit_cdf divides by.
         let unnormalized = x * x.ln_1p() - x_minus_ln_1p(x);
         let density = 1.0 / (c * unnormalized);
-        let max_radius_mm = unit_max_radius * medium.length_mm();
+        let max_radius_mm = unit_max_radius * medium.mean_free_path_mm();
         if !(density.is_finite() && density > 0.0 && max_radius_mm.is_finite() && max_radius_mm > 0.0) {
             return Err(ModelError::OutOfNumericRange { quantity: "cdf(r_max)", surface_albedo });
         }
         Ok(PolynomialProfile {
             surface_albedo,
-            mean_free_path_mm: medium.length_mm(),
+            mean_free_path_mm: medium.mean_free_path_mm(),
             max_radius_mm,
             unit_max_radius,
             unit_c: c,
@@ -530,11 +530,11 @@ mod tests {
         // eq. (7) and (18) as printed, against the form about r_max that the profile uses.
         let model = PolynomialModel::LIANG_2023;
         for surface_albedo in [0.05, 0.3, 0.8, 0.99] {
-            for length_mm in [0.01, 1.0, 40.0] {
-                let profile = model.profile(Medium::new(surface_albedo, length_mm).unwrap()).unwrap();
+            for mean_free_path_mm in [0.01, 1.0, 40.0] {
+                let profile = model.profile(Medium::new(surface_albedo, mean_free_path_mm).unwrap()).unwrap();
                 let alpha = from_surface_albedo(Entry::Searchlight, surface_albedo);
-                let (a, b) = (model.a.at(alpha) / length_mm, model.b.at(alpha));
-                let c = model.c.at(alpha) * length_mm;
+                let (a, b) = (model.a.at(alpha) / mean_free_path_mm, model.b.at(alpha));
+                let c = model.c.at(alpha) * mean_free_path_mm;
                 let normalization = model.energy_before_normalization(surface_albedo).unwrap();
                 for fraction in [0.0, 0.01, 0.2, 0.7, 0.99] {
                     let r = fraction * profile.max_radius().unwrap();

@@ -19,19 +19,15 @@ pub enum Entry {
     Diffuse,
 }
 
-/// Coefficients of the rational q(A).
-struct Rational {
-    c1: f64,
-    c2: f64,
-    c3: f64,
-}
+/// c₁, c₂ and c₃ of q(A) for perpendicular entry; its twin in WGSL takes them from here.
+pub(crate) const SEARCHLIGHT: [f64; 3] = [1.02129, 3.27177, 1.60715];
 
 impl Entry {
-    /// Fitted to exact values of H functions, see the module.
-    const fn rational(self) -> Rational {
+    /// c₁, c₂ and c₃ of q(A), fitted to exact values of H functions, see the module.
+    const fn rational(self) -> [f64; 3] {
         match self {
-            Entry::Searchlight => Rational { c1: 1.02129, c2: 3.27177, c3: 1.60715 },
-            Entry::Diffuse => Rational { c1: 0.72146, c2: 2.16390, c3: 0.81192 },
+            Entry::Searchlight => SEARCHLIGHT,
+            Entry::Diffuse => [0.72146, 2.16390, 0.81192],
         }
     }
 }
@@ -41,7 +37,7 @@ impl Entry {
 /// The argument is clamped to [0, 1]; 0 gives exactly 0 and 1 exactly 1. NaN gives NaN.
 pub fn from_surface_albedo(entry: Entry, surface_albedo: f64) -> f64 {
     let a = surface_albedo.clamp(0.0, 1.0);
-    let Rational { c1, c2, c3 } = entry.rational();
+    let [c1, c2, c3] = entry.rational();
     let denominator = 1.0 + (c2 + c3 * a) * a;
     let q = (1.0 - a) * (1.0 + c1 * a) / denominator;
     if a < 0.5 {
@@ -61,7 +57,7 @@ pub fn from_surface_albedo(entry: Entry, surface_albedo: f64) -> f64 {
 /// 1e-8 of A.
 pub fn to_surface_albedo(entry: Entry, single_scattering_albedo: f64) -> f64 {
     let alpha = single_scattering_albedo.clamp(0.0, 1.0);
-    let Rational { c1, c2, c3 } = entry.rational();
+    let [c1, c2, c3] = entry.rational();
     let q = (1.0 - alpha).sqrt();
     // (1 - A)(1 + c₁A) = q(1 + c₂A + c₃A²) is quadratic A² + linear A - (1 - q) = 0 with one positive root.
     let quadratic = c1 + c3 * q;

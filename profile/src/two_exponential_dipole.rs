@@ -81,7 +81,7 @@ impl TwoExponentialDipoleModel {
         }
         Ok(ExponentialSourceSum::new(
             surface_albedo,
-            medium.length_mm(),
+            medium.mean_free_path_mm(),
             [
                 Exponential { weight: weight * (1.0 - self.short_weight), length },
                 Exponential { weight: weight * self.short_weight, length: short_length },

@@ -51,17 +51,18 @@ struct Case {
     name: String,
     model: Model,
     surface_albedo: f64,
-    length_mm: f64,
+    mean_free_path_mm: f64,
     channel: Channel,
     profile: Box<dyn RadialProfile>,
 }
 
 impl Case {
-    fn new(stem: &str, surface_albedo: f64, length_mm: f64, channel: Channel) -> Case {
+    fn new(stem: &str, surface_albedo: f64, mean_free_path_mm: f64, channel: Channel) -> Case {
         let model = Model::published(stem).unwrap();
-        let profile = model.profile(Medium::new(surface_albedo, length_mm).unwrap(), channel).unwrap();
-        let name = format!("{stem}, A = {surface_albedo}, length {length_mm} mm, {channel}");
-        Case { name, model, surface_albedo, length_mm, channel, profile }
+        let profile =
+            model.profile(Medium::new(surface_albedo, mean_free_path_mm).unwrap(), channel).unwrap();
+        let name = format!("{stem}, A = {surface_albedo}, length {mean_free_path_mm} mm, {channel}");
+        Case { name, model, surface_albedo, mean_free_path_mm, channel, profile }
     }
 
     /// Radii in mm from 0 to far out, most of them where the energy is.
@@ -95,8 +96,8 @@ fn coefficients_are_valid_and_stems_are_known() {
 fn a_profile_depends_on_what_its_model_says() {
     for stem in Model::PUBLISHED {
         let dependence = Model::published(stem).unwrap().dependence();
-        let cdf = |surface_albedo, length_mm, channel| {
-            Case::new(stem, surface_albedo, length_mm, channel).profile.radial_cdf(0.4)
+        let cdf = |surface_albedo, mean_free_path_mm, channel| {
+            Case::new(stem, surface_albedo, mean_free_path_mm, channel).profile.radial_cdf(0.4)
         };
         let [red, green, blue] = Channel::ALL.map(|channel| cdf(0.5, 1.0, channel));
         assert_eq!(red == green && green == blue, !dependence.on_channel(), "{stem}");
@@ -278,7 +279,7 @@ fn samples_begin_at_0_increase_and_stay_finite() {
 #[test]
 fn a_profile_scales_with_its_length() {
     for case in domain().filter(|case| case.model.dependence() == Dependence::Medium) {
-        let l = case.length_mm;
+        let l = case.mean_free_path_mm;
         let unit = case.model.profile(Medium::new(case.surface_albedo, 1.0).unwrap(), case.channel).unwrap();
         for r in &case.radii()[2..] {
             // R_l(r) = R₁(r/l)/l². One rounding of r/l is multiplied by at most 40 decay lengths; at the end of
@@ -315,7 +316,7 @@ fn transmittance_falls_from_the_surface_albedo_to_0() {
 #[test]
 fn transmittance_is_the_profile_seen_through_a_slab() {
     // ∫ R(√(r² + t²)) 2πr dr, integrated without the substitution that the model uses.
-    for case in domain().filter(|case| case.length_mm == 1.0 && case.surface_albedo > 0.0) {
+    for case in domain().filter(|case| case.mean_free_path_mm == 1.0 && case.surface_albedo > 0.0) {
         for thickness in [0.03, 0.4, 2.0] {
             let mut radii = case.radii();
             radii.truncate(17);
@@ -372,7 +373,7 @@ fn samples_follow_the_cdf() {
     const SAMPLES: u32 = 20_000;
     const BINS: usize = 40;
     let some = [0.0, 0.5, 0.95, 1.0];
-    for case in domain().filter(|case| case.length_mm == 1.0 && some.contains(&case.surface_albedo)) {
+    for case in domain().filter(|case| case.mean_free_path_mm == 1.0 && some.contains(&case.surface_albedo)) {
         let p = &case.profile;
         // Bins of equal width in the logarithm of the radius, not of equal probability, so that the expected
         // counts come from the cdf and not from the inverse under test.

@@ -102,10 +102,10 @@ fn domain() -> Vec<(String, Box<dyn RadialProfile>)> {
     let mut domain = Vec::new();
     for (name, model) in models() {
         for surface_albedo in [0.0, 0.1, 0.3, 0.5, 0.62, 1.0] {
-            for length_mm in [1e-3, 1.0, 1e3] {
-                let medium = Medium::new(surface_albedo, length_mm).unwrap();
+            for mean_free_path_mm in [1e-3, 1.0, 1e3] {
+                let medium = Medium::new(surface_albedo, mean_free_path_mm).unwrap();
                 let profile = model.profile(medium, Channel::Red).unwrap();
-                domain.push((format!("{name}, A = {surface_albedo}, {length_mm} mm"), profile));
+                domain.push((format!("{name}, A = {surface_albedo}, {mean_free_path_mm} mm"), profile));
             }
         }
     }

@@ -1,7 +1,6 @@
 //! Angles: the twin of `shaders/lib/angle.wgsl`.
 
-/// cos and sin of the golden angle π (3 - √5).
-const GOLDEN_TURN: [f64; 2] = [-0.737_368_878_078_319_8, 0.675_490_294_261_524_1];
+use subsurface_kernel::constants::GOLDEN_TURN;
 
 /// `direction` turned by the golden angle.
 pub(crate) fn turned([x, y]: [f64; 2]) -> [f64; 2] {

@@ -9,7 +9,7 @@ pub struct Material<'a> {
     pub model: &'a Model,
     /// Length that scales the profile, per channel (red, green, blue), mm, > 0: the mean free path or the diffuse mean
     /// free path, as [`Model::length`] says.
-    pub length_mm: [f64; 3],
+    pub mean_free_path_mm: [f64; 3],
     /// Surface albedo per channel, in [0, 1].
     pub surface_albedo: [f64; 3],
 }

@@ -9,7 +9,7 @@ use subsurface_profile::description::Dependence;
 use subsurface_profile::{Channel, Medium, Model, RadialProfile};
 
 use crate::gather::curve::{
-    Knots, LARGEST_SURFACE_ALBEDO, LAST_SHARE, NodesOf, mean_radius, quantile, quantiles,
+    Knots, LARGEST_SURFACE_ALBEDO, LAST_SHARE, NODES, NodesOf, mean_radius, node_albedo, quantile, quantiles,
 };
 use crate::material::Material;
 use crate::no_profile::NoProfile;
@@ -32,15 +32,15 @@ struct Appearance {
 impl Appearance {
     fn of(material: &Material<'_>) -> Self {
         let model = material.model.clone();
-        let longest = material.length_mm.into_iter().fold(0.0, f64::max);
+        let longest = material.mean_free_path_mm.into_iter().fold(0.0, f64::max);
         let (lengths, surface_albedo) = match model.dependence() {
             // Neither plays a part.
             Dependence::Channel => ([1.0; 3], [0.5; 3]),
             Dependence::Medium => {
-                (material.length_mm.map(|length| length / longest), material.surface_albedo)
+                (material.mean_free_path_mm.map(|length| length / longest), material.surface_albedo)
             }
             // Some lengths are in mm, and so all must be.
-            Dependence::MediumAndChannel => (material.length_mm, material.surface_albedo),
+            Dependence::MediumAndChannel => (material.mean_free_path_mm, material.surface_albedo),
         };
         Self { model, lengths, surface_albedo }
     }
@@ -98,11 +98,15 @@ impl Optics {
             let exact = profile(channel, surface_albedo)?;
             let curve = quantiles(&*profile(channel, surface_albedo.min(LARGEST_SURFACE_ALBEDO))?);
             // Edge curves of all surface albedos, or of all channels, end where the widest does.
-            let mut edge_reach = profile(channel, LARGEST_SURFACE_ALBEDO)?.sample_radius(LAST_SHARE);
+            let reach_of = |channel: Channel| {
+                (0..NODES).map(node_albedo).try_fold(0.0_f64, |reach, surface_albedo| {
+                    Ok(reach.max(profile(channel, surface_albedo)?.sample_radius(LAST_SHARE)))
+                })
+            };
+            let mut edge_reach = reach_of(channel)?;
             if NodesOf::model(&appearance.model) != NodesOf::SurfaceAlbedo {
                 for other in Channel::ALL {
-                    edge_reach =
-                        edge_reach.max(profile(other, LARGEST_SURFACE_ALBEDO)?.sample_radius(LAST_SHARE));
+                    edge_reach = edge_reach.max(reach_of(other)?);
                 }
             }
             let edge_curve = EdgeCurve::new(|distance| beyond_line(&*exact, distance), edge_reach);

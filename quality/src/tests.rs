@@ -1,33 +1,36 @@
 use subsurface_profile::{Channel, EdgeSpread, Medium, Model};
 
 use super::{Material, NoProfile, Quality, QualityReport, SearchError, Tier, search};
+use crate::gather::curve::quantile;
 use crate::gather::gathered::Rgb;
 use crate::gather::point::Point;
 use crate::kernels::twin::Twin;
+use crate::noise::interleaved_gradient_noise;
 use crate::optics::Optics;
-use crate::optics::line_spread::{edge_spread, line_spread};
+use crate::optics::line_spread::{beyond_line, edge_spread, line_spread};
 use crate::pictures::case::{Case, Deviation, FOOTPRINTS};
 use crate::pictures::patch::{PATCH_SIDE, Patch};
 use crate::pictures::reference::expected;
 use crate::pictures::scene::Scene;
 use crate::report::stated;
 use crate::search::cost::{KINDS, cost, counts};
+use subsurface_kernel::constants::FILTER_QUANTILE;
 use subsurface_kernel::{Estimator, Rejected, Rejection};
 
 /// A material with a model of its own.
 #[derive(Clone, Debug)]
 struct Sample {
     model: Model,
-    length_mm: [f64; 3],
+    mean_free_path_mm: [f64; 3],
     surface_albedo: [f64; 3],
 }
 
-fn published(stem: &str, length_mm: [f64; 3], surface_albedo: [f64; 3]) -> Sample {
-    Sample { model: Model::published(stem).expect("it is published"), length_mm, surface_albedo }
+fn published(stem: &str, mean_free_path_mm: [f64; 3], surface_albedo: [f64; 3]) -> Sample {
+    Sample { model: Model::published(stem).expect("it is published"), mean_free_path_mm, surface_albedo }
 }
 
-fn sample(length_mm: [f64; 3], surface_albedo: [f64; 3]) -> Sample {
-    published("two_exponential_dipole_searchlight", length_mm, surface_albedo)
+fn sample(mean_free_path_mm: [f64; 3], surface_albedo: [f64; 3]) -> Sample {
+    published("two_exponential_dipole_searchlight", mean_free_path_mm, surface_albedo)
 }
 
 fn skin() -> Sample {
@@ -37,9 +40,9 @@ fn skin() -> Sample {
 fn materials(samples: &[Sample]) -> Vec<Material<'_>> {
     samples
         .iter()
-        .map(|Sample { model, length_mm, surface_albedo }| Material {
+        .map(|Sample { model, mean_free_path_mm, surface_albedo }| Material {
             model,
-            length_mm: *length_mm,
+            mean_free_path_mm: *mean_free_path_mm,
             surface_albedo: *surface_albedo,
         })
         .collect()
@@ -83,6 +86,34 @@ fn light_of_an_edge_is_that_of_the_profile_crate() {
                 }
             }
         }
+    }
+}
+
+#[test]
+fn edge_curves_reach_as_far_as_filters_do() {
+    for stem in Model::PUBLISHED {
+        for surface_albedo in [0.0, 0.33, 0.6, 0.999] {
+            let [optics] = &optics_of(&[published(stem, [1.3, 0.95, 0.67], [surface_albedo; 3])])[..] else {
+                panic!("{stem}: one material");
+            };
+            for channel in &optics.channels {
+                let last = quantile(&channel.curve, FILTER_QUANTILE).0;
+                for step in 0..=200 {
+                    let x = last * f64::from(step) / 200.0;
+                    let (found, exact) = (channel.edge_curve.at(x), beyond_line(&*channel.profile, x));
+                    // 64 straight pieces up to where the widest surface albedo ends, and no light beyond: a curve that
+                    // is much narrower has fewer of them (measured: 6.5e-3 at most).
+                    assert!((found - exact).abs() < 1e-2, "{stem}, {surface_albedo}, {x}: {found}, {exact}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn noise_is_from_0_to_1_left_of_the_screen_too() {
+    for pixel in [[-3, -5], [-1, 0], [0, 0], [-4096, 7]] {
+        assert!((0.0..1.0).contains(&interleaved_gradient_noise(pixel)), "{pixel:?}");
     }
 }
 
@@ -362,7 +393,7 @@ fn materials_that_look_alike_are_tried_once() {
     let other = sample([1.30, 0.95, 0.67], [0.83, 0.64, 0.5]);
     assert_eq!(optics_of(&[skin(), twice_as_large, skin()]).len(), 1);
     assert_eq!(optics_of(&[skin(), other.clone()]).len(), 2);
-    let gaussian = |of: Sample| published("gaussian_skin", of.length_mm, of.surface_albedo);
+    let gaussian = |of: Sample| published("gaussian_skin", of.mean_free_path_mm, of.surface_albedo);
     assert_eq!(optics_of(&[gaussian(skin()), gaussian(other)]).len(), 1);
 }
 

@@ -79,14 +79,15 @@ fn sums_of_many_terms_agree_with_the_f64_models() {
 /// Holds every function of the profiles `stems` against its twin in f64.
 fn hold_against_f64(stems: &[&str], lengths_mm: &[f64]) {
     let gpu = Gpu::open();
-    for &length_mm in lengths_mm {
+    for &mean_free_path_mm in lengths_mm {
         let mut queries = Vec::new();
         let mut profiles = Vec::new();
         for (material, stem) in (0..).zip(stems) {
             let model = model(stem);
             for surface_albedo in SURFACE_ALBEDOS {
                 for channel in Channel::ALL {
-                    let medium = Medium::new(f64::from(surface_albedo), length_mm).expect("in the domain");
+                    let medium =
+                        Medium::new(f64::from(surface_albedo), mean_free_path_mm).expect("in the domain");
                     let profile = model.profile(medium, channel).expect("a published model");
                     for u in QUANTILES {
                         // Radii cover the profile evenly in energy, and reach a little beyond its last quantile.
@@ -103,7 +104,7 @@ fn hold_against_f64(stems: &[&str], lengths_mm: &[f64]) {
                 }
             }
         }
-        let answers = ask(&gpu, stems, length_mm, &queries);
+        let answers = ask(&gpu, stems, mean_free_path_mm, &queries);
         let mut worst = [0.0_f64; 5];
         for ((query, answer), (stem, profile)) in queries
             .iter()
@@ -112,7 +113,7 @@ fn hold_against_f64(stems: &[&str], lengths_mm: &[f64]) {
         {
             let radius = f64::from(query.radius_mm);
             let context = format!(
-                "{stem} A={} l={length_mm} channel {} r={radius} u={}",
+                "{stem} A={} l={mean_free_path_mm} channel {} r={radius} u={}",
                 query.surface_albedo, query.channel, query.u
             );
             // Close to a polynomial's r_max its density is a difference of nearly equal terms, and so is the exponent
@@ -150,7 +151,7 @@ fn hold_against_f64(stems: &[&str], lengths_mm: &[f64]) {
         }
         let worst = worst.map(|error| format!("{error:.1e}")).join(", ");
         println!(
-            "l = {length_mm} mm: worst errors of area_pdf, radial_pdf, radial_cdf, transmittance, sample: {worst}"
+            "l = {mean_free_path_mm} mm: worst errors of area_pdf, radial_pdf, radial_cdf, transmittance, sample: {worst}"
         );
     }
 }

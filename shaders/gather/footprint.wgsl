@@ -7,7 +7,7 @@ fn footprint_taps(point: SurfacePoint, budget: u32) -> u32 {
     if point.filter_radius_pixels < 1.0 {
         return 0u;
     }
-    let radius = min(point.filter_radius_pixels, 4096.0);
+    let radius = min(point.filter_radius_pixels, LARGEST_FILTER_RADIUS);
     return min(u32(ceil(0.125 * TAU * radius * radius)), min(budget, LARGEST_TAP_COUNT));
 }
 

@@ -13,9 +13,6 @@ fn together(a: Gathered, b: Gathered) -> Gathered {
     return Gathered(a.irradiance + b.irradiance, a.weight + b.weight);
 }
 
-/// A weight below this divides nothing.
-const SMALLEST_WEIGHT: f32 = 1e-12;
-
 /// Diffused irradiance from what was gathered. Missing energy is renormalized or, if the policy says so, returned to
 /// the centre.
 fn diffused_irradiance(gathered: Gathered, own: vec3f) -> vec3f {

@@ -4,7 +4,7 @@
 struct MaterialSurface {
     /// Length that scales the profile, per channel (red, green, blue), mm: the mean free path ℓ, or the diffuse mean
     /// free path for models that are parametrized by it.
-    length_mm: vec3f,
+    mean_free_path_mm: vec3f,
     /// Profile model: one of the `MODEL_…` constants.
     model: u32,
     /// Surface albedo A per channel where no texture overrides it, 0 to 1.

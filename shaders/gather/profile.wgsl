@@ -1,4 +1,4 @@
-// uses: the material set
+// uses: gather/curve, the material set
 
 /// A profile model with its coefficients evaluated: what the functions `<model>_area_pdf` and its siblings take.
 struct Profile {
@@ -6,8 +6,8 @@ struct Profile {
     coefficients: vec4f,
     /// What the model has besides, which is no function of the surface albedo.
     shape: ProfileShape,
-    /// Where its quantile curve is: see `albedo_curve`.
-    curve: vec3f,
+    /// Its quantile curve.
+    curve: Curve,
 }
 
 /// The profiles of the three channels at one pixel.

@@ -1,8 +1,5 @@
 // uses: gather/{channel, gathered, input, point, rejection}, kernel/constants, lib/angle; needs: input_pixel
 
-/// Taps farther than this many pixels count as this far: outside of any target, and exact as i32.
-const LARGEST_TAP_DISTANCE: f32 = 32768.0;
-
 /// Pixel that a tap reads, `radius_mm` from the point.
 fn tap_position(point: SurfacePoint, radius_mm: f32, direction: vec2f) -> vec2i {
     let radius_pixels = min(radius_mm / point.pixel_mm, LARGEST_TAP_DISTANCE);

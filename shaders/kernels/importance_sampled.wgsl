@@ -1,4 +1,4 @@
-// uses: gather/{curve, gathered, point, tap}, lib/angle
+// uses: gather/{curve, gathered, point, tap}, kernel/constants, lib/angle
 
 // Importance-sampled gather in screen space, [L23] eq. (22):
 //

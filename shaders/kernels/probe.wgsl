@@ -1,4 +1,4 @@
-// uses: gather/{curve, gathered, point, tap}, lib/angle
+// uses: gather/{curve, point, tap}, kernel/constants, lib/angle
 
 // Taps that only look: what the debug views estimate.
 

@@ -5,9 +5,6 @@ const TAU: f32 = 6.28318531;
 /// The golden angle π(3 − √5) in radians: successive multiples cover a disc most evenly.
 const GOLDEN_ANGLE: f32 = 2.39996323;
 
-/// cos and sin of the golden angle: a step from tap to tap without a transcendental.
-const GOLDEN_TURN: vec2f = vec2f(-0.73736888, 0.67549029);
-
 /// `direction` turned by the angle whose cosine and sine are `turn`.
 fn turned(direction: vec2f, turn: vec2f) -> vec2f {
     return vec2f(

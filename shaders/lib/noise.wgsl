@@ -1,3 +1,5 @@
+// uses: kernel/constants
+
 /// Interleaved gradient noise in [0, 1): any 3×3 block of pixels holds well-spread values, with no texture to bind.
 ///
 /// Jimenez 2014, "Next Generation Post Processing in Call of Duty: Advanced Warfare", slide 123. `seed` shifts the
@@ -5,5 +7,5 @@
 fn interleaved_gradient_noise(pixel: vec2i, seed: u32) -> f32 {
     // 5.588238 is that talk's step between patterns; 64 of them repeat before the products lose digits.
     let p = vec2f(pixel) + 5.588238 * f32(seed % 64u);
-    return fract(52.9829189 * fract(dot(p, vec2f(0.06711056, 0.00583715))));
+    return fract(GRADIENT_NOISE.z * fract(dot(p, GRADIENT_NOISE.xy)));
 }

@@ -13,11 +13,11 @@ struct BurleyModel {
 }
 
 /// (d, 0, 0, 0): the scattering distance d = length / s(A), mm, [CB15] eq. (3).
-fn burley_profile(model: BurleyModel, surface_albedo: f32, length_mm: f32) -> vec4f {
+fn burley_profile(model: BurleyModel, surface_albedo: f32, mean_free_path_mm: f32) -> vec4f {
     // pow(0, y) is undefined where it is lowered to exp2(y log2(0)).
     let distance_to_pivot = max(abs(surface_albedo - model.pivot), 1e-20);
     let s = model.constant + model.slope * surface_albedo + model.amplitude * pow(distance_to_pivot, model.exponent);
-    return vec4f(length_mm / s, 0.0, 0.0, 0.0);
+    return vec4f(mean_free_path_mm / s, 0.0, 0.0, 0.0);
 }
 
 /// R(r) / A per unit area, mm⁻². Diverges at r = 0.

@@ -1,4 +1,4 @@
-// uses: lib/{angle, dipole_source, exponential_source_sum}
+// uses: lib/{angle, dipole_source, exponential_source_sum}, profile/constants
 
 // The dipole of diffusion theory: R(r) = α′/4π (z_r (1 + s d_r) e^(−s d_r)/d_r³ + z_v (1 + s d_v) e^(−s d_v)/d_v³),
 // d = √(r² + z²).
@@ -14,14 +14,15 @@ struct DipoleModel {
     refractive_index: f32,
 }
 
-/// F_dr: the share of diffuse light that the surface reflects back inside. Rational fits: [J01] from η = 1 on, Egan and
-/// Hilgeman 1979 below.
+/// F_dr: the share of diffuse light that the surface reflects back inside.
 fn dipole_internal_reflectance(refractive_index: f32) -> f32 {
     let n = refractive_index;
     if n >= 1.0 {
-        return -1.440 / (n * n) + 0.710 / n + 0.668 + 0.0636 * n;
+        let c = INTERNAL_REFLECTANCE;
+        return c.x / (n * n) + c.y / n + c.z + c.w * n;
     }
-    return -0.4399 + 0.7099 / n - 0.3319 / (n * n) + 0.0636 / (n * n * n);
+    let c = INTERNAL_REFLECTANCE_BELOW_1;
+    return c.x + c.y / n + c.z / (n * n) + c.w / (n * n * n);
 }
 
 /// (z_r, z_v, s, share of the source at z_r); z in mm, s in mm⁻¹. The medium is what it is: neither the surface albedo

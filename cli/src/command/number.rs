@@ -5,7 +5,7 @@ mod analysis;
 
 #[cfg(feature = "analysis")]
 pub(super) use analysis::{
-    anisotropy, footprint_pixels, fraction, length_mm, photons, radius_above_0, radius_mm,
+    anisotropy, footprint_pixels, fraction, mean_free_path_mm, photons, radius_above_0, radius_mm,
     single_scattering_albedo, standard_error, surface_albedo, threads, white,
 };
 

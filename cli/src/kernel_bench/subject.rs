@@ -63,7 +63,7 @@ impl Subject {
         let triple = |[r, g, b]: [f64; 3]| format!("({r:?}, {g:?}, {b:?})");
         let text = format!(
             "Material(profile: \"{stem}\", mean_free_path_mm: {}, surface_albedo: {})\n",
-            triple(self.material.length_mm),
+            triple(self.material.mean_free_path_mm),
             triple(self.material.surface_albedo)
         );
         let path = PathBuf::from(&self.material.name).with_extension("ron");
@@ -99,7 +99,8 @@ impl Subject {
     /// compiler refuses before.
     pub fn profile(&self, channel: Channel) -> Option<Box<dyn RadialProfile>> {
         let index = channel.index();
-        let medium = Medium::new(self.material.surface_albedo[index], self.material.length_mm[index]).ok()?;
+        let medium =
+            Medium::new(self.material.surface_albedo[index], self.material.mean_free_path_mm[index]).ok()?;
         self.material.profile.model.profile(medium, channel).ok()
     }
 

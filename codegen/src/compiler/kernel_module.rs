@@ -58,7 +58,7 @@ impl KernelModule {
         };
         let ShaderFiles { rooms, profiles, .. } = wanted.shaders;
         let rooms: Vec<Module> =
-            rooms.iter().chain(profiles.iter().filter(in_use)).copied().chain([shared_constants()]).collect();
+            rooms.iter().chain(profiles.iter().filter(in_use)).copied().chain(shared_constants()).collect();
         let of_house = pass_files(choices.estimator, wanted);
         let guests: Vec<Module> =
             wanted.passes.iter().map(|pass| Module { name: pass.name, text: pass.text }).collect();

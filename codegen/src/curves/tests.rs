@@ -45,13 +45,13 @@ fn knots(row: &Row, next: bool) -> Vec<f32> {
 fn profile(model: &Model, node: usize) -> Box<dyn RadialProfile> {
     let node = u32::try_from(node).expect("few rows");
     let albedo = |node: u32| 1.0 - (1.0 - f64::from(node) / 15.0).powi(2);
-    let (surface_albedo, channel, length_mm) = match NodesOf::model(model) {
+    let (surface_albedo, channel, mean_free_path_mm) = match NodesOf::model(model) {
         NodesOf::SurfaceAlbedo => (albedo(node), Channel::Red, 1.0),
         NodesOf::Channel => (0.5, Channel::ALL[node as usize], 1.0),
         // The lengths of `material`.
         NodesOf::Both => (albedo(node % 16), Channel::ALL[node as usize / 16], f64::from(node / 16 + 1)),
     };
-    let medium = Medium::new(surface_albedo.min(0.999), length_mm).expect("a legal medium");
+    let medium = Medium::new(surface_albedo.min(0.999), mean_free_path_mm).expect("a legal medium");
     model.profile(medium, channel).expect("a published model has a profile")
 }
 

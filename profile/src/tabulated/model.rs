@@ -182,7 +182,7 @@ impl TabulatedModel {
     pub fn profile(&self, medium: Medium) -> Result<TabulatedProfile, ModelError> {
         let surface_albedo = medium.surface_albedo();
         let (lower, upper, t) = self.between(surface_albedo);
-        let end_mm = self.radii[self.radii.len() - 1] * medium.length_mm();
+        let end_mm = self.radii[self.radii.len() - 1] * medium.mean_free_path_mm();
         if !(end_mm > 0.0 && end_mm.is_finite()) {
             return Err(ModelError::OutOfNumericRange { quantity: "r_max", surface_albedo });
         }
@@ -191,7 +191,7 @@ impl TabulatedModel {
         let masses = lower.masses.iter().zip(&upper.masses).map(mix);
         Ok(TabulatedProfile::new(
             surface_albedo,
-            medium.length_mm(),
+            medium.mean_free_path_mm(),
             Arc::clone(&self.radii),
             densities.zip(masses),
         ))

@@ -1,6 +1,6 @@
 //! Quantile radii of a profile as the kernels read them: what `shaders/gather/curve.wgsl` finds in its texture.
 
-use subsurface_kernel::constants::CURVE_STEPS;
+use subsurface_kernel::constants::{CURVE_STEPS, SMALLEST_ROOT};
 use subsurface_profile::description::{Contents, Dependence};
 use subsurface_profile::{Model, RadialProfile};
 
@@ -10,6 +10,18 @@ pub const STEPS: usize = CURVE_STEPS as usize;
 /// Largest surface albedo that has a curve of its own: at 1 itself the profile falls as r⁻³, and its last quantile is of
 /// no use.
 pub const LARGEST_SURFACE_ALBEDO: f64 = 0.999;
+
+/// Curves of a model whose shape depends on the surface albedo.
+///
+/// Node k lies at v = k/15 with A = 1 - (1 - v)²: profiles widen without bound as A nears 1, roughly as 1/√(1 - A), so
+/// nodes at even steps of √(1 - A) follow them.
+pub const NODES: u32 = 16;
+
+/// Surface albedo of a node.
+pub fn node_albedo(node: u32) -> f64 {
+    let remainder = 1.0 - f64::from(node) / f64::from(NODES - 1);
+    (1.0 - remainder * remainder).min(LARGEST_SURFACE_ALBEDO)
+}
 
 /// The share that ends a curve. The radius of the whole energy is infinite for most models.
 pub const LAST_SHARE: f64 = 0.9999;
@@ -71,8 +83,7 @@ pub(crate) fn quantile(curve: &Knots, u: f64) -> (f64, f64) {
     let step = place.floor().min(steps - 1.0);
     let start = curve[step as usize];
     let rise = curve[step as usize + 1] - start;
-    // √(1 - u) is kept above that of u = 1 - 2^-24, the f32 before 1.
-    (start + rise * (place - step), rise * steps * 0.5 / root.max(2.441_406_25e-4))
+    (start + rise * (place - step), rise * steps * 0.5 / root.max(SMALLEST_ROOT))
 }
 
 /// Mean radius of a curve: between two of its knots the radius grows evenly with t, u = 1 - (1 - t)².

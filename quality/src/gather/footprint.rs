@@ -2,12 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use subsurface_kernel::constants::LARGEST_TAP_COUNT;
+use subsurface_kernel::constants::{LARGEST_FILTER_RADIUS, LARGEST_TAP_COUNT};
 
 use crate::gather::point::Point;
-
-/// Radius from which a footprint is worth all taps, pixels.
-const LARGEST_FILTER_RADIUS: f64 = 4096.0;
 
 impl Point<'_> {
     /// Taps of a budget that the footprint is worth.

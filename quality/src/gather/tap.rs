@@ -2,13 +2,10 @@
 
 use std::f64::consts::TAU;
 
-use subsurface_kernel::constants::LARGEST_WEIGHT;
+use subsurface_kernel::constants::{LARGEST_TAP_DISTANCE, LARGEST_WEIGHT};
 
 use crate::gather::gathered::Rgb;
 use crate::gather::point::Point;
-
-/// Taps farther than this many pixels count as this far: beyond any feature, and exact.
-const LARGEST_TAP_DISTANCE: f64 = 32768.0;
 
 /// A tap at a radius that was drawn from a profile.
 #[derive(Clone, Copy, Debug)]

@@ -5,6 +5,8 @@ pub(crate) mod edge_spread;
 use std::collections::HashMap;
 use std::f64::consts::FRAC_PI_2;
 
+use subsurface_kernel::constants::SMALLEST_WEIGHT;
+
 use crate::gather::gathered::{Gathered, Rgb, mixed};
 use crate::gather::point::Point;
 use crate::gather::tap::pixel_at;
@@ -134,7 +136,7 @@ impl<'a> Separable<'a> {
         let path = strip.offset.hypot(depth * self.point.pixel);
         let beyond = self.point.beyond_line(path);
         std::array::from_fn(|channel| {
-            let left = beyond[channel] / strip.beyond[channel].max(1e-12);
+            let left = beyond[channel] / strip.beyond[channel].max(SMALLEST_WEIGHT);
             strip.share[channel] * left.clamp(0.0, 1.0)
         })
     }

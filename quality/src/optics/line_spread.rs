@@ -10,7 +10,7 @@ use subsurface_profile::RadialProfile;
 /// `EdgeSpread`, which is good to 1e-10, by less than 1e-6.
 const STEP: f64 = 0.25;
 
-/// Largest t: cosh t = 2.4e6, more than a profile spans.
+/// Largest t: cosh t = 2.7e6, more than a profile spans.
 const STEPS: u32 = 62;
 
 /// ∫ f(cosh t) dt from 0 to ∞.

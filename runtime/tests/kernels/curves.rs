@@ -31,8 +31,8 @@ fn compilation(description: &Description) -> Compilation {
 
 /// The profile of a channel of a material of [`Description`], at another surface albedo.
 fn profile(stem: &str, channel: Channel, surface_albedo: f64) -> Box<dyn RadialProfile> {
-    let length_mm = crate::setup::MEAN_FREE_PATH_MM[channel.index()];
-    let medium = Medium::new(surface_albedo, length_mm).expect("in the domain");
+    let mean_free_path_mm = crate::setup::MEAN_FREE_PATH_MM[channel.index()];
+    let medium = Medium::new(surface_albedo, mean_free_path_mm).expect("in the domain");
     model(stem).profile(medium, channel).expect("a published model")
 }
 

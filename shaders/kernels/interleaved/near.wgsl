@@ -1,4 +1,4 @@
-// uses: gather/{channel, gathered, point}, kernel/constants
+// uses: gather/{channel, point}, kernel/constants
 
 // The light that stays within a pixel and its eight neighbours.
 

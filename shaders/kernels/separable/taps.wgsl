@@ -1,4 +1,4 @@
-// uses: gather/tap, lib/{angle, noise}, the material set; needs: subsurface_view
+// uses: kernel/constants, lib/{angle, noise}, the material set; needs: subsurface_view
 
 /// Distance of tap `tap` of `taps` on one side of the centre, in whole pixels: the squares of even steps up to the
 /// reach, but no two taps on one pixel, so that strips end between pixels.

@@ -9,7 +9,7 @@ pub(in crate::command) fn surface_albedo(text: &str) -> Result<f64, String> {
 }
 
 /// A length in mm, finite and above 0.
-pub(in crate::command) fn length_mm(text: &str) -> Result<f64, String> {
+pub(in crate::command) fn mean_free_path_mm(text: &str) -> Result<f64, String> {
     within(text, "a finite number of millimetres above 0", |value| value > 0.0 && value.is_finite())
 }
 

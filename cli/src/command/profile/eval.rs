@@ -19,7 +19,7 @@ pub struct ProfileOf {
     pub surface_albedo: f64,
     /// Mean free path 1/σt in mm, above 0; the diffuse mean free path 1/σtr for models parametrized by it. Models
     /// with lengths of their own, such as Gaussian sums, do not use it.
-    #[arg(long, value_name = "L", value_parser = number::length_mm, allow_hyphen_values = true)]
+    #[arg(long, value_name = "L", value_parser = number::mean_free_path_mm, allow_hyphen_values = true)]
     pub mean_free_path_mm: f64,
     /// Colour channel; only models with coefficients per channel, such as Gaussian sums, differ.
     #[arg(long, value_enum, default_value_t)]

@@ -1,6 +1,6 @@
 //! Twin of `shaders/kernels/interleaved/near.wgsl`: the shares of a pixel and its eight neighbours.
 
-use subsurface_kernel::constants::{FAR_RADIUS_PIXELS, HALF_LOG_3_OF_2, NEAR_RADIUS_PIXELS};
+use subsurface_kernel::constants::{FAR_RADIUS_PIXELS, HALF_LOG_3_OF_2, NEAR_RADIUS_PIXELS, SMALLEST_WEIGHT};
 
 use crate::gather::gathered::Rgb;
 use crate::gather::point::Point;
@@ -23,7 +23,7 @@ impl NearField {
         let blend = point.blend();
         let mut shares = Self { centre: [0.0; 3], beside: [0.0; 3], across: [0.0; 3] };
         for channel in 0..3 {
-            let growth = inside[channel] / centre[channel].max(1e-12);
+            let growth = inside[channel] / centre[channel].max(SMALLEST_WEIGHT);
             let across = 0.5 * growth.powf(HALF_LOG_3_OF_2);
             let beside = (inside[channel] - centre[channel]) / (4.0 + 4.0 * across);
             shares.centre[channel] = 1.0 + blend * (centre[channel] - 1.0);

@@ -1,0 +1,34 @@
+//! Coefficients of formulas that have a twin in WGSL: the compiler declares them there.
+
+use crate::{dipole, single_scattering_albedo};
+
+/// Coefficients that stand in Rust and in WGSL.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct SharedConstant {
+    /// Name in WGSL.
+    pub name: &'static str,
+    /// What they are.
+    pub docs: &'static str,
+    /// Three or four numbers, a vector in WGSL.
+    pub values: &'static [f64],
+}
+
+/// All of them.
+pub const SHARED_CONSTANTS: &[SharedConstant] = &[
+    SharedConstant {
+        name: "SEARCHLIGHT_ALBEDO",
+        docs: "c₁, c₂, c₃ of the single-scattering albedo for perpendicular entry: q = (1 − A)(1 + c₁A) / (1 + c₂A + c₃A²).",
+        values: &single_scattering_albedo::SEARCHLIGHT,
+    },
+    SharedConstant {
+        name: "INTERNAL_REFLECTANCE",
+        docs: "F_dr from η = 1 on, as coefficients of η⁻², η⁻¹, 1 and η (Jensen et al. 2001, after Groenhuis et al. 1983).",
+        values: &dipole::INTERNAL_REFLECTANCE,
+    },
+    SharedConstant {
+        name: "INTERNAL_REFLECTANCE_BELOW_1",
+        docs: "F_dr below η = 1, as coefficients of 1, η⁻¹, η⁻² and η⁻³ (Egan and Hilgeman 1979).",
+        values: &dipole::INTERNAL_REFLECTANCE_BELOW_1,
+    },
+];
