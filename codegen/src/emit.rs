@@ -6,12 +6,13 @@ use std::fmt::Write as _;
 use subsurface_profile::ModelKind;
 
 use crate::compose::Glue;
-use crate::curves::{CurvePlace, Curves};
+use crate::curves::Curves;
 use crate::dispatch_text::emit_dispatch;
 use crate::identifier::screaming_case;
-use crate::material::{Material, MaterialSet};
+use crate::material::MaterialSet;
+use crate::material_row::{emit_row, row};
 use crate::mixture_text::{emit_mixtures, emit_shape};
-use crate::model_row::{ModelsInUse, Shared, constant, structure};
+use crate::model_row::{ModelsInUse, Shared, constant};
 use crate::value::Value;
 use subsurface_kernel::Estimator;
 use subsurface_kernel::OutputFormat;
@@ -45,7 +46,7 @@ pub(crate) struct Choices {
 /// # Errors
 /// A model without a profile at a surface albedo that a texture may have.
 pub(crate) fn emit(set: &MaterialSet, choices: &Choices) -> Result<Emitted, NoProfile> {
-    let with_edges = matches!(choices.estimator, Estimator::Separable { .. });
+    let with_edges = choices.estimator.reads_edge_curves();
     let mut curves = Curves::bake(set, with_edges)?;
     let models = ModelsInUse::of(set.materials.iter().map(|material| &material.profile.model));
 
@@ -70,23 +71,6 @@ pub(crate) fn emit(set: &MaterialSet, choices: &Choices) -> Result<Emitted, NoPr
     shared.emit(&mut glue.text);
     curves.append(&shared.terms.texels);
     Ok(Emitted { glue, rows, knots: shared.knots.values, curves, models: models.all })
-}
-
-fn row(material: &Material, models: &ModelsInUse, place: &CurvePlace, shared: &mut Shared) -> Value {
-    let (number, coefficients) = models.row(&material.profile.model, shared);
-    let surface = Value::Struct(vec![
-        ("mean_free_path_mm", Value::vector(material.mean_free_path_mm)),
-        ("model", Value::U32(number)),
-        ("surface_albedo", Value::vector(material.surface_albedo)),
-        ("reflectance_at_normal", Value::scalar(material.reflectance_at_normal)),
-        ("roughness", Value::scalar(material.roughness)),
-        ("transmission_strength", Value::scalar(material.transmission_strength)),
-        ("first_curve", Value::U32(place.first_curve)),
-        ("curve_count", Value::U32(place.curve_count)),
-        ("first_edge", Value::U32(place.first_edge)),
-        ("edge_reach", Value::scalar(place.edge_reach)),
-    ]);
-    Value::Struct(std::iter::once(("surface", surface)).chain(coefficients).collect())
 }
 
 /// The constant that holds a material's number.
@@ -156,15 +140,3 @@ const PROFILE_CURVES: &str = "\
 @group(0) @binding(2) var profile_curves: texture_2d<f32>;
 
 ";
-
-fn emit_row(text: &mut String, models: &[ModelKind]) {
-    text.push_str("/// One row of the parameter table: a material.\nstruct SubsurfaceMaterial {\n");
-    text.push_str("    /// What every material has.\n    surface: MaterialSurface,\n");
-    // The alignment that a uniform buffer demands of a struct in a struct, and that costs a storage buffer little.
-    for model in models {
-        let (stem, structure) = (model.description().stem, structure(*model));
-        let _ = writeln!(text, "    /// Coefficients, if `surface.model` is {}.", constant(*model));
-        let _ = writeln!(text, "    @align(16) {stem}: {structure},");
-    }
-    text.push_str("}\n\n");
-}

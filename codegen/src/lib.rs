@@ -35,6 +35,7 @@ mod lint;
 pub mod load;
 mod manifest;
 pub mod material;
+mod material_row;
 mod mixture_text;
 mod model_row;
 mod no_profile;

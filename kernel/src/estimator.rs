@@ -76,7 +76,7 @@ impl Estimator {
         }
     }
 
-    /// Stem of its WGSL files and of its twin in Rust.
+    /// Stem of its WGSL files, and of its twin in f64 if it has one.
     #[must_use]
     pub const fn stem(self) -> &'static str {
         match self {
@@ -140,6 +140,12 @@ impl Estimator {
     #[must_use]
     pub const fn packs_pixels(self) -> bool {
         matches!(self, Self::Interleaved { .. })
+    }
+
+    /// Whether it reads the edge-spread curves of the profiles beside their quantiles.
+    #[must_use]
+    pub const fn reads_edge_curves(self) -> bool {
+        matches!(self, Self::Separable { .. })
     }
 
     /// Whether each pixel turns the axes of the estimator.

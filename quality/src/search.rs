@@ -12,7 +12,7 @@ use crate::pictures::scene::Scene;
 use crate::quality::{Quality, Tier};
 use crate::report::{PictureReport, QualityReport, TierReport, stated};
 use crate::search_error::SearchError;
-use cost::{KINDS, cost, counts};
+use cost::{cost, counts, kinds};
 
 /// Searches the cheapest kernel for `materials` that is as good as `quality` asks for: of one `kind`, whatever its taps,
 /// or of all.
@@ -29,7 +29,7 @@ pub fn search(
     let mut trial = Trial { cases: Case::all(&optics, rejection) };
     let mut candidates: Vec<Estimator> = match kind {
         Some(kind) => trial.counts(kind),
-        None => KINDS.into_iter().flat_map(|kind| trial.counts(kind)).collect(),
+        None => kinds().flat_map(|kind| trial.counts(kind)).collect(),
     };
     // Stable: of two that cost the same, the kind that comes first.
     candidates.sort_by(|a, b| cost(*a).total_cmp(&cost(*b)));

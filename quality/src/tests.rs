@@ -13,7 +13,7 @@ use crate::pictures::patch::{PATCH_SIDE, Patch};
 use crate::pictures::reference::expected;
 use crate::pictures::scene::Scene;
 use crate::report::stated;
-use crate::search::cost::{KINDS, cost, counts};
+use crate::search::cost::{cost, counts, kinds};
 use subsurface_kernel::constants::FILTER_QUANTILE;
 use subsurface_kernel::{Estimator, Rejected, Rejection};
 
@@ -242,7 +242,7 @@ fn a_footprint_below_a_pixel_changes_nothing() {
     let optics = optics_of(&[skin()]);
     let point = Point::new(&optics[0], 0.01, true, false);
     assert!(point.filter_radius_pixels < 1.0);
-    for kind in KINDS {
+    for kind in kinds() {
         for scene in Scene::all(3.0) {
             let twin = Twin::new(kind, point).expect("it has a twin");
             for patch in Patch::all(scene, scene.reach(3.0)) {
@@ -318,7 +318,7 @@ fn the_error_falls_with_the_taps() {
         let errors = cases.iter_mut().map(|case| case.deviation(kernel).expect("it has a twin").error);
         errors.sum::<f64>()
     };
-    for kind in KINDS {
+    for kind in kinds() {
         let errors: Vec<f64> = counts(kind).into_iter().map(&mut mean).collect();
         let (first, last) = (errors[0], errors[errors.len() - 1]);
         // From the fewest to the most, by a factor of three at least (measured: 4 to 10).
@@ -332,14 +332,14 @@ fn the_error_falls_with_the_taps() {
 
 #[test]
 fn candidates_are_allowed_and_sorted() {
-    for kind in KINDS {
+    for kind in kinds() {
         let kernels = counts(kind);
         assert!(kernels.len() > 5);
         assert!(kernels.iter().all(|kernel| kernel.refused_taps().is_none()));
         assert!(kernels.is_sorted_by(|a, b| a.taps() < b.taps() && cost(*a) < cost(*b)));
         assert_eq!(
             kernels.iter().map(|kernel| kernel.taps()).max(),
-            Some(if kind == KINDS[1] { 65 } else { 64 })
+            Some(if kind.tap_counts().is_some_and(|counts| counts.odd) { 65 } else { 64 })
         );
     }
     let turned = counts(Estimator::Separable { taps: 17, rotated: true });
@@ -351,11 +351,8 @@ fn the_search_finds_what_trying_everything_finds() {
     let samples = [skin(), sample([0.2, 2.0, 1.0], [0.9, 0.99, 0.2])];
     let optics = optics_of(&samples);
     let mut cases = Case::all(&optics, Rejection::default());
-    let mut all: Vec<(Estimator, f64)> = KINDS
-        .into_iter()
-        .flat_map(counts)
-        .map(|kernel| (kernel, deviation(&mut cases, kernel).error))
-        .collect();
+    let mut all: Vec<(Estimator, f64)> =
+        kinds().flat_map(counts).map(|kernel| (kernel, deviation(&mut cases, kernel).error)).collect();
     all.sort_by(|(a, _), (b, _)| cost(*a).total_cmp(&cost(*b)));
     let least = all.iter().map(|(_, error)| *error).fold(f64::INFINITY, f64::min);
     for target in [0.5, 0.06, least] {
@@ -380,7 +377,7 @@ fn the_search_finds_what_trying_everything_finds() {
 
 #[test]
 fn a_named_kernel_is_kept() {
-    for kind in KINDS {
+    for kind in kinds() {
         let report = solved(&[skin()], Quality::MaxError(0.2), Some(kind));
         assert_eq!(report.estimator.name(), kind.name());
         assert!(report.error <= 0.2);

@@ -168,13 +168,6 @@ fn the_parameter_table_is_a_uniform_buffer_where_it_fits() {
 
 #[test]
 fn every_kernel_compiles_with_every_profile() {
-    let kernels = [
-        Estimator::ImportanceSampled { taps: 17 },
-        Estimator::Separable { taps: 17, rotated: false },
-        Estimator::Separable { taps: 17, rotated: true },
-        Estimator::Interleaved { taps: 4 },
-        Estimator::Dense,
-    ];
     let table = "r,r_reflectance\n0,0.1\n1,0.05\n2,0\n";
     let stems = subsurface_profile::Model::PUBLISHED
         .map(|stem| (format!("{stem}.ron"), material(&format!("\"{stem}\""))));
@@ -185,7 +178,7 @@ fn every_kernel_compiles_with_every_profile() {
     let mixture = subsurface_profile::ModelKind::Mixture.description().example;
     let mixture = ("v.ron".to_owned(), material(mixture));
     let files: Vec<_> = stems.into_iter().chain(tabulated).chain([mixture]).collect();
-    for kernel in kernels {
+    for kernel in Estimator::ALL {
         let compiler =
             Compiler::from_memory(files.iter().map(|(path, text)| (path, text.as_str()))).estimator(kernel);
         let compilation = compiler.compile().unwrap_or_else(|report| panic!("{kernel}: {report}"));

@@ -28,7 +28,12 @@ pub(crate) struct SetFile {
 
 const FIELDS: [&str; 4] = ["version", "kernel", "quality", "rejection"];
 
-const KERNELS: [&str; 4] = ["ImportanceSampled", "Separable", "Interleaved", "Dense"];
+/// Names of the kernels.
+fn kernels() -> Vec<&'static str> {
+    let mut names: Vec<&str> = Estimator::ALL.into_iter().map(Estimator::name).collect();
+    names.dedup();
+    names
+}
 
 /// Decodes a file whose value is `MaterialSet(…)`; `None` when nothing in it can be trusted.
 pub(crate) fn decode_set_file(decoder: &mut Decoder, document: &Document<'_>) -> Option<SetFile> {
@@ -43,59 +48,51 @@ pub(crate) fn decode_set_file(decoder: &mut Decoder, document: &Document<'_>) ->
 }
 
 fn decode_estimator(decoder: &mut Decoder, node: &Node<'_>) -> Option<Estimator> {
+    let kernels = kernels();
     let Some((name, body)) = Body::of(node) else {
-        let help = format!("write `kernel: Interleaved(taps: 4)`; the kernels are {}", list(KERNELS));
-        no_word(decoder, node, "kernel", "a kernel", &KERNELS, help);
+        let help = format!("write `kernel: Interleaved(taps: 4)`; the kernels are {}", list(kernels.iter().copied()));
+        no_word(decoder, node, "kernel", "a kernel", &kernels, help);
         return None;
     };
-    let (owner, known, example): (_, &[&str], _) = match name.text {
-        "ImportanceSampled" => ("`ImportanceSampled`", &["taps"], "ImportanceSampled(taps: 17)"),
-        "Separable" => ("`Separable`", &["taps", "rotated"], "Separable(taps: 17, rotated: false)"),
-        "Interleaved" => ("`Interleaved`", &["taps"], "Interleaved(taps: 4)"),
-        "Dense" => ("`Dense`", &[], "Dense"),
-        _ => {
-            unknown_word(decoder, &name, "kernel", &KERNELS);
-            return None;
+    let of_name = || Estimator::ALL.into_iter().filter(|kernel| kernel.name() == name.text);
+    let Some(usual) = of_name().next() else {
+        unknown_word(decoder, &name, "kernel", &kernels);
+        return None;
+    };
+    let turned = of_name().find(|kernel| kernel.is_rotated());
+    let (known, example): (&[&str], _) = match (usual.tap_counts().is_some(), turned.is_some()) {
+        (true, true) => {
+            (&["taps", "rotated"], format!("{}(taps: {}, rotated: false)", name.text, usual.taps()))
         }
+        (true, false) => (&["taps"], format!("{}(taps: {})", name.text, usual.taps())),
+        (false, _) => (&[], name.text.to_owned()),
     };
-    let entries = body.fields(decoder, &name, example)?;
-    let fields = decoder.fields(owner, name.span.clone(), entries, known);
+    let entries = body.fields(decoder, &name, &example)?;
+    let fields = decoder.fields(format!("`{}`", name.text), name.span.clone(), entries, known);
     let rotated = fields.optional("rotated", |node| decoder.truth(node, "rotated"));
-    let with_taps = |taps: u32| match name.text {
-        "ImportanceSampled" => Estimator::ImportanceSampled { taps },
-        "Separable" => Estimator::Separable { taps, rotated: rotated.value().copied().unwrap_or_default() },
-        "Interleaved" => Estimator::Interleaved { taps },
-        _ => Estimator::Dense,
-    };
-    let default = match name.text {
-        "Interleaved" => Estimator::default().taps(),
-        _ => 17,
-    };
-    match fields.optional("taps", |node| decode_taps(decoder, node, with_taps)) {
+    let chosen = turned.filter(|_| rotated.value().copied().unwrap_or_default()).unwrap_or(usual);
+    match fields.optional("taps", |node| decode_taps(decoder, node, chosen)) {
         Given::Value(kernel) => Some(kernel),
-        Given::Absent => Some(with_taps(default)),
+        Given::Absent => Some(chosen),
         Given::Bad => None,
     }
     .filter(|_| !rotated.is_bad())
 }
 
-/// The kernel with the number of taps that `node` says.
-fn decode_taps(
-    decoder: &mut Decoder,
-    node: &Node<'_>,
-    with_taps: impl Fn(u32) -> Estimator,
-) -> Option<Estimator> {
+/// `kernel` with the number of taps that `node` says.
+fn decode_taps(decoder: &mut Decoder, node: &Node<'_>, kernel: Estimator) -> Option<Estimator> {
     // Only a kernel that has taps comes here.
-    let counts = with_taps(1).tap_counts()?;
-    let kind = with_taps(1).name();
-    let help = match with_taps(1) {
+    let counts = kernel.tap_counts()?;
+    let kind = kernel.name();
+    let help = match kernel {
         Estimator::Separable { .. } => {
             "one tap is the pixel itself, the others lie in pairs around it; 17 is usual"
         }
         Estimator::ImportanceSampled { .. } => "17 to 33 are usual",
-        _ => "4 is the default; neighbours share their taps, so few do",
+        Estimator::Interleaved { .. } => "4 is the default; neighbours share their taps, so few do",
+        Estimator::Dense => "it reads every pixel in reach",
     };
-    let kernel = ron::from_str::<u32>(node.text()).ok().map(with_taps);
+    let kernel = ron::from_str::<u32>(node.text()).ok().map(|taps| kernel.with_taps(taps));
     if let Some(kernel) = kernel.filter(|kernel| kernel.refused_taps().is_none()) {
         return Some(kernel);
     }
@@ -199,8 +196,11 @@ pub(super) mod tests {
         ] {
             assert_eq!(kernel(text), Ok(expected), "{text}");
         }
-        // Whatever kernel there is has a name here.
-        assert!(KERNELS.iter().all(|name| kernel(name).is_ok_and(|kernel| kernel.name() == *name)));
+        // Whatever kernel there is can be written, and has its usual number of taps.
+        for estimator in Estimator::ALL {
+            let rotated = if estimator.is_rotated() { "(rotated: true)" } else { "" };
+            assert_eq!(kernel(&format!("{}{rotated}", estimator.name())), Ok(estimator));
+        }
     }
 
     #[test]

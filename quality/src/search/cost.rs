@@ -23,13 +23,9 @@ const TAPS: [u32; 12] = [1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64];
 
 /// The kernels of one kind that are tried, the one with the fewest taps first.
 pub(crate) fn counts(kind: Estimator) -> Vec<Estimator> {
-    let with = |taps: u32| match kind {
-        Estimator::ImportanceSampled { .. } => Estimator::ImportanceSampled { taps },
-        // A tap in the middle, and pairs.
-        Estimator::Separable { rotated, .. } => Estimator::Separable { taps: taps | 1, rotated },
-        Estimator::Interleaved { .. } => Estimator::Interleaved { taps },
-        Estimator::Dense => Estimator::Dense,
-    };
+    // An odd number: a tap in the middle, and pairs.
+    let odd = kind.tap_counts().is_some_and(|counts| counts.odd);
+    let with = |taps: u32| kind.with_taps(if odd { taps | 1 } else { taps });
     let mut kernels: Vec<Estimator> =
         TAPS.into_iter().map(with).filter(|kernel| kernel.refused_taps().is_none()).collect();
     kernels.dedup();
@@ -37,8 +33,12 @@ pub(crate) fn counts(kind: Estimator) -> Vec<Estimator> {
 }
 
 /// The kinds that are tried where a set names none.
-pub(crate) const KINDS: [Estimator; 3] = [
-    Estimator::ImportanceSampled { taps: 1 },
-    Estimator::Separable { taps: 3, rotated: false },
-    Estimator::Interleaved { taps: 1 },
-];
+pub(crate) fn kinds() -> impl Iterator<Item = Estimator> {
+    Estimator::ALL.into_iter().filter(|kind| match kind {
+        Estimator::ImportanceSampled { .. } | Estimator::Interleaved { .. } => true,
+        // Rotated axes trade stars for noise: they cost the same, and their error is no less.
+        Estimator::Separable { rotated, .. } => !rotated,
+        // Without an error, and without an end.
+        Estimator::Dense => false,
+    })
+}

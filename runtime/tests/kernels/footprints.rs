@@ -42,7 +42,7 @@ fn bound(kernel: Estimator) -> f64 {
         // 17 taps without anything that holds them still.
         Estimator::ImportanceSampled { .. } => 0.09,
         Estimator::Separable { .. } => 0.06,
-        _ => 0.03,
+        Estimator::Interleaved { .. } | Estimator::Dense => 0.03,
     }
 }
 

@@ -18,13 +18,19 @@ pub(crate) const SURFACE_ALBEDO: [f64; 3] = [0.8, 0.6, 0.4];
 /// The profile of materials that name none: what stands for all where kernels, not profiles, are tested.
 pub(crate) const DEFAULT_STEM: &str = "two_exponential_dipole_searchlight";
 
-/// Taps of the kernels as their papers use them; the default of the fourth.
-pub(crate) const KERNELS: [Estimator; 4] = [
-    Estimator::ImportanceSampled { taps: 17 },
-    Estimator::Separable { taps: 17, rotated: false },
-    Estimator::Interleaved { taps: 4 },
-    Estimator::Dense,
-];
+/// Every kernel with its usual taps, but for rotated axes.
+pub(crate) const KERNELS: [Estimator; Estimator::ALL.len() - 1] = {
+    let mut kernels = [Estimator::Dense; Estimator::ALL.len() - 1];
+    let (mut from, mut to) = (0, 0);
+    while from < Estimator::ALL.len() {
+        if !Estimator::ALL[from].is_rotated() {
+            kernels[to] = Estimator::ALL[from];
+            to += 1;
+        }
+        from += 1;
+    }
+    kernels
+};
 
 /// Both paths.
 pub(crate) const PATHS: [Path; 2] = [Path::Compute, Path::Fragment];

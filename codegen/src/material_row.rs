@@ -1,0 +1,48 @@
+//! The row of a material in the parameter table: its struct in WGSL, and its values.
+//!
+//! What all materials have stands in `shaders/gather/material.wgsl`; the models' part is `model_row`'s.
+
+use std::fmt::Write as _;
+
+use subsurface_profile::ModelKind;
+
+use crate::curves::CurvePlace;
+use crate::material::Material;
+use crate::model_row::{ModelsInUse, Shared, constant, structure};
+use crate::value::Value;
+
+/// The struct of a row of a set with these models.
+pub(crate) fn emit_row(text: &mut String, models: &[ModelKind]) {
+    text.push_str("/// One row of the parameter table: a material.\nstruct SubsurfaceMaterial {\n");
+    text.push_str("    /// What every material has.\n    surface: MaterialSurface,\n");
+    // The alignment that a uniform buffer demands of a struct in a struct, and that costs a storage buffer little.
+    for model in models {
+        let (stem, structure) = (model.description().stem, structure(*model));
+        let _ = writeln!(text, "    /// Coefficients, if `surface.model` is {}.", constant(*model));
+        let _ = writeln!(text, "    @align(16) {stem}: {structure},");
+    }
+    text.push_str("}\n\n");
+}
+
+/// The values of a row.
+pub(crate) fn row(
+    material: &Material,
+    models: &ModelsInUse,
+    place: &CurvePlace,
+    shared: &mut Shared,
+) -> Value {
+    let (number, coefficients) = models.row(&material.profile.model, shared);
+    let surface = Value::Struct(vec![
+        ("mean_free_path_mm", Value::vector(material.mean_free_path_mm)),
+        ("model", Value::U32(number)),
+        ("surface_albedo", Value::vector(material.surface_albedo)),
+        ("reflectance_at_normal", Value::scalar(material.reflectance_at_normal)),
+        ("roughness", Value::scalar(material.roughness)),
+        ("transmission_strength", Value::scalar(material.transmission_strength)),
+        ("first_curve", Value::U32(place.first_curve)),
+        ("curve_count", Value::U32(place.curve_count)),
+        ("first_edge", Value::U32(place.first_edge)),
+        ("edge_reach", Value::scalar(place.edge_reach)),
+    ]);
+    Value::Struct(std::iter::once(("surface", surface)).chain(coefficients).collect())
+}
