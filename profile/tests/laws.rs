@@ -8,9 +8,9 @@ use proptest::prelude::*;
 use subsurface_profile::description::Dependence;
 use subsurface_profile::quadrature::Quadrature;
 use subsurface_profile::{
-    BurleyModel, BurleyShape, Channel, ExponentialDipoleModel, GaussianSumModel, GaussianTerm, Length,
-    Medium, Model, ModelKind, PolynomialA, PolynomialB, PolynomialC, PolynomialModel, RadialProfile,
-    TwoExponentialDipoleModel,
+    BurleyModel, BurleyShape, Channel, DipoleModel, ExponentialDipoleModel, GaussianSumModel, GaussianTerm,
+    Length, Medium, MixtureModel, MixturePart, Model, ModelKind, PolynomialA, PolynomialB, PolynomialC,
+    PolynomialModel, RadialProfile, TwoExponentialDipoleModel,
 };
 
 /// Both ends, their neighbourhoods, and the range between in steps of 0.05.
@@ -476,7 +476,23 @@ fn decades() -> impl Strategy<Value = f64> {
 
 /// A model that has a profile at every surface albedo.
 fn any_model() -> impl Strategy<Value = Model> {
+    let mixture = (any_leaf(), any_leaf(), decades()).prop_map(|(model, other, weight)| {
+        let parts = vec![MixturePart { weight: 1.0, model }, MixturePart { weight, model: other }];
+        Model::Mixture(MixtureModel { parts })
+    });
+    prop_oneof![4 => any_leaf(), 1 => mixture]
+}
+
+/// The same, but no mixture. A table obeys the laws of `tabulated.rs`.
+fn any_leaf() -> impl Strategy<Value = Model> {
     prop_oneof![
+        (decades(), decades(), 0.5..=2.5f64).prop_map(|(scattering, absorption, refractive_index)| {
+            Model::Dipole(DipoleModel {
+                reduced_scattering_per_mm: [scattering; 3],
+                absorption_per_mm: [absorption; 3],
+                refractive_index,
+            })
+        }),
         (decades(), decades(), 0.0..=1.0f64, 0.5..=6.0f64).prop_map(
             |(constant, amplitude, pivot, exponent)| {
                 let shape = BurleyShape { constant, slope: 0.0, amplitude, pivot, exponent };

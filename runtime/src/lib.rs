@@ -39,10 +39,12 @@ pub use wgpu_29 as wgpu;
 #[cfg(feature = "wgpu-30")]
 pub use wgpu_30 as wgpu;
 
+mod bind_error;
 mod bindings;
 mod camera;
 mod extent;
 mod frame;
+mod frame_error;
 mod gbuffer;
 mod geometry;
 mod input;
@@ -64,18 +66,18 @@ mod view;
 mod viewport;
 mod wgpu_version;
 
+pub use bind_error::BindError;
 pub use bindings::kernel::GBufferVertex as Vertex;
 pub use camera::{Bounds, Camera};
 pub use extent::{Extent, SizeError};
 pub use frame::Frame;
+pub use frame_error::FrameError;
 pub use gbuffer::{GBuffer, TRANSLUCENT_STENCIL};
 pub use geometry::Geometry;
-pub use input::BindError;
 pub use light::{DirectionalLight, LIGHT_CAPACITY};
 pub use load_error::LoadError;
 pub use loaded_kernel::LoadedKernel;
 pub use object::{Object, SurfaceDescriptor, TexturePixels};
-pub use output::FrameError;
 pub use pass::PassError;
 pub use pass::composite::{CompositeDescriptor, CompositeInputs, CompositePass, CompositeSettings};
 pub use pass::distance::{DistanceDescriptor, DistancePass};

@@ -4,7 +4,7 @@ use glam::{Mat4, Vec3};
 
 use crate::bindings::kernel;
 use crate::camera::{Bounds, upright};
-use crate::output::FrameError;
+use crate::frame_error::FrameError;
 
 /// Directional lights that one frame can hold.
 pub const LIGHT_CAPACITY: usize = subsurface_kernel::constants::LIGHT_CAPACITY as usize;

@@ -1,13 +1,13 @@
 //! All four passes in order.
 
+use crate::bind_error::BindError;
 use crate::extent::Extent;
 use crate::frame::Frame;
+use crate::frame_error::FrameError;
 use crate::gbuffer::GBuffer;
-use crate::input::BindError;
 use crate::label::Label;
 use crate::loaded_kernel::LoadedKernel;
 use crate::object::Object;
-use crate::output::FrameError;
 use crate::pass::PassError;
 use crate::pass::composite::{CompositeDescriptor, CompositeInputs, CompositePass};
 use crate::pass::gbuffer::{GBufferDescriptor, GBufferPass, GBufferView};

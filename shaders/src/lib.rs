@@ -2,11 +2,11 @@
 //!
 //! A [`Module`] is one `.wgsl` file, and each folder is a room: pure functions ([`LIBRARY`]), profile models
 //! ([`PROFILES`]), what all estimators share ([`GATHER`]), the estimators ([`KERNELS`]), the light of the G-buffer
-//! ([`LIGHT`]), and bindings with entry points ([`PASSES`]). The first line of a file names the files that it takes from,
-//! and what it leaves open for the pass that links it:
+//! ([`LIGHT`]), and bindings with entry points ([`PASSES`]). The first line of a file that takes something from others names
+//! them, and what it leaves open for the pass that links it:
 //!
 //! ```wgsl
-//! // uses: gather/{channel, gathered, input, point, rejection}, lib/angle; needs: input_pixel
+//! // uses: gather/{channel, gathered, input, point, rejection}, kernel/constants, lib/angle; needs: input_pixel
 //! ```
 //!
 //! No top-level name stands in two modules that may be linked together, so a linker can resolve a name by itself:

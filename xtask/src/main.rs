@@ -21,7 +21,7 @@ The commands of this repository.
 Usage: cargo xtask <COMMAND>
 
 Commands:
-  demo    Find or install a Vulkan driver, build, and render a labelled contact sheet of every profile model
+  demo    Find or install a Vulkan driver, build, and render a labelled contact sheet of the profile models
   test    Find or install a Vulkan driver, then run every test
   ci [--quick] [--keep-going]
           The gate: formatting, spelling, dependencies, lints, documentation, every test, accuracy, tables, the oldest

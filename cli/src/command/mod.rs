@@ -60,8 +60,10 @@ pub enum Command {
     /// Compile a set of materials to WGSL, Rust bindings and a JSON manifest.
     ///
     /// Writes subsurface.wgsl (the kernel module: all materials of the set), subsurface.rs (typed bindings that include
-    /// it) and subsurface.json (what the module binds, entry points, the parameter table); if a profile is a table, also
-    /// subsurface.tables (its radii for the kernel). The same materials give the same bytes. For Rust projects, `subsurface_codegen::Compiler` in build.rs does the same at every build.
+    /// it), subsurface.json (what the module binds, entry points, the parameter table) and subsurface.curves (the
+    /// quantile radii of the profiles, a texture); if a profile is a table, also subsurface.tables (its knots). The same
+    /// materials give the same bytes. For Rust projects, `subsurface_codegen::Compiler` in build.rs does the same at
+    /// every build.
     Build(build::BuildArguments),
     /// Evaluate, judge, fit and draw radial diffusion profiles, in double precision.
     #[cfg(feature = "analysis")]
@@ -78,10 +80,10 @@ pub enum Command {
     ///
     /// This is how to check the kernel against your own ground truth.
     Diffuse(diffuse::DiffuseArguments),
-    /// Draw one scene with every profile model, side by side with labels.
+    /// Draw one scene with every profile model that has a published set, side by side with labels.
     ///
-    /// The tiles: no subsurface, Gaussian sum, Burley, polynomial, two exponentials + dipole. They differ in the profile
-    /// alone; everything else of the material stays.
+    /// The first tile has no subsurface scattering. The others differ in the profile alone; everything else of the
+    /// material stays.
     ContactSheet(contact_sheet::ContactSheetArguments),
     /// Measure kernels: errors and times side by side.
     #[cfg(feature = "analysis")]

@@ -1,4 +1,5 @@
-//! Models as files write them, read by what each model says of itself.
+//! Models as files write them, read by what each model says of itself: the fields, their units and bounds stand in
+//! `profile/src/<model>.rs`.
 
 use std::collections::BTreeMap;
 
@@ -208,7 +209,19 @@ impl Reader<'_> {
 
     /// All fields; each one that is missing or wrong is reported.
     fn model(&mut self, decoder: &mut Decoder, fields: &Fields<'_>) -> Option<Model> {
-        let mut model = self.kind.blank(1)?;
+        let Some(mut model) = self.kind.blank(1) else {
+            // Terms and parts are read elsewhere; a model of coefficients has at least one published set, or says how it
+            // begins.
+            let name = self.kind.description().name;
+            decoder.report(
+                Diagnostic::error(format!(
+                    "the model `{name}` does not say what its coefficients are before they are read"
+                ))
+                .label(fields.head.clone(), "this model")
+                .help("no file is to blame: give it a published set, or implement `ProfileModel::blank`"),
+            );
+            return None;
+        };
         let mut is_whole = true;
         if let Some(word) = self.length(decoder, fields) {
             match word {

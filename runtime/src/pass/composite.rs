@@ -1,9 +1,10 @@
 //! Pass 4: radiance, tone mapping, sRGB.
 
+use crate::bind_error::BindError;
 use crate::bindings::composite::{self, BindGroup0, ENTRY_COMPOSITE_FRAGMENT, ENTRY_COMPOSITE_VERTEX, WGSL};
-use crate::input::{BindError, Holds, Input};
+use crate::frame_error::FrameError;
+use crate::input::{Holds, Input};
 use crate::label::Label;
-use crate::output::FrameError;
 use crate::timestamps::Timestamps;
 use crate::wgpu;
 

@@ -3,8 +3,9 @@
 use bytemuck::Pod;
 
 use crate::extent::Extent;
+use crate::frame_error::FrameError;
 use crate::label::Label;
-use crate::output::{FrameError, Output, Progress};
+use crate::output::{Output, Progress};
 use crate::timestamps::Timestamps;
 use crate::wgpu;
 

@@ -1,11 +1,12 @@
 //! Beside the four passes: distances in millimetres, for programs that read the frame's depth.
 
+use crate::bind_error::BindError;
 use crate::bindings::distance::{
     BindGroup0, DistanceView, ENTRY_DISTANCE_FRAGMENT, ENTRY_DISTANCE_VERTEX, WGSL,
 };
-use crate::input::{BindError, Holds, Input};
+use crate::frame_error::FrameError;
+use crate::input::{Holds, Input};
 use crate::label::Label;
-use crate::output::FrameError;
 use crate::target::Target;
 use crate::timestamps::Timestamps;
 use crate::view::SubsurfaceView;

@@ -1,17 +1,19 @@
 //! Pass 2: irradiance, unscattered radiance and surface in one go.
 
+use crate::bind_error::BindError;
 use crate::bindings::kernel::{
     BindGroup3, ENTRY_GBUFFER_FRAGMENT, ENTRY_GBUFFER_VERTEX, GBufferFrame, GBufferVertex, GbufferBindGroup2,
 };
 use crate::camera::{Bounds, Camera};
 use crate::extent::Extent;
+use crate::frame_error::FrameError;
 use crate::gbuffer::{GBuffer, TRANSLUCENT_STENCIL};
-use crate::input::{BindError, Holds, Input};
+use crate::input::{Holds, Input};
 use crate::label::Label;
 use crate::light::{DirectionalLight, LIGHT_CAPACITY, check_count};
 use crate::loaded_kernel::LoadedKernel;
 use crate::object::Object;
-use crate::output::{FrameError, Output, Progress};
+use crate::output::{Output, Progress};
 use crate::timestamps::Timestamps;
 use crate::wgpu;
 use crate::wgpu_version::vertex_buffer;

@@ -3,10 +3,11 @@
 use crate::Vertex;
 use crate::bindings::shadow::{BindGroup0, BindGroup1, ENTRY_SHADOW_VERTEX, ShadowProjection, WGSL};
 use crate::camera::Bounds;
+use crate::frame_error::FrameError;
 use crate::label::Label;
 use crate::light::{DirectionalLight, LIGHT_CAPACITY, check_count};
 use crate::object::Object;
-use crate::output::{FrameError, Progress};
+use crate::output::Progress;
 use crate::timestamps::Timestamps;
 use crate::wgpu;
 use crate::wgpu_version::vertex_buffer;

@@ -7,11 +7,12 @@ mod inputs;
 mod intermediate;
 mod path;
 
+use crate::bind_error::BindError;
 use crate::bindings::kernel::{self, BindGroup1, ENTRY_DEBUG_FRAGMENT, ENTRY_SUBSURFACE_VERTEX};
 use crate::extent::Extent;
-use crate::input::BindError;
+use crate::frame_error::FrameError;
 use crate::loaded_kernel::LoadedKernel;
-use crate::output::{self, FrameError, Progress};
+use crate::output::{self, Progress};
 use crate::target::Target;
 use crate::view::SubsurfaceView;
 use crate::viewport::Viewport;

@@ -1,7 +1,8 @@
 //! What the subsurface pass reads.
 
+use crate::bind_error::BindError;
 use crate::extent::Extent;
-use crate::input::{BindError, Holds, Input};
+use crate::input::{Holds, Input};
 use crate::viewport::Viewport;
 use crate::wgpu;
 
@@ -22,13 +23,13 @@ use super::descriptor::Settings;
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct SubsurfaceInputs<'a> {
-    /// Diffuse irradiance before the surface albedo, linear RGB: any float format.
+    /// Diffuse irradiance before the surface albedo, linear RGB: any float format with red, green and blue.
     pub irradiance: &'a wgpu::TextureView,
     /// Surface albedo (red, green, blue) and the material number as a float; a number below 0 marks pixels that do not
     /// scatter. A format that holds such numbers, `Rgba16Float` or `Rgba32Float`; any float format of three components
     /// and more where the numbers come from [`material_ids`](Self::material_ids).
     pub surface: &'a wgpu::TextureView,
-    /// Depth: a depth texture (its depth aspect) or a single-channel float texture;
+    /// Depth: a depth texture (its depth aspect), or a float texture whose red is read;
     /// [`SubsurfaceView`](crate::SubsurfaceView) says what its values mean.
     pub depth: &'a wgpu::TextureView,
     /// Depth-stencil texture whose stencil marks translucent pixels with
