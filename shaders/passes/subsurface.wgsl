@@ -22,9 +22,9 @@ fn texture_position(position: vec2i) -> vec2i {
     return position + subsurface_view.viewport_origin;
 }
 
-/// Whether the viewport has a pixel at `position`.
+/// Whether the viewport has a pixel at `position`: places before it are large as numbers without a sign.
 fn is_inside(position: vec2i) -> bool {
-    return all(position >= vec2i(0)) && all(position < subsurface_view.viewport_extent);
+    return all(vec2u(position) < vec2u(subsurface_view.viewport_extent));
 }
 
 /// Texel of the irradiance at `position`.
