@@ -50,7 +50,10 @@ pub(crate) fn decode_set_file(decoder: &mut Decoder, document: &Document<'_>) ->
 fn decode_estimator(decoder: &mut Decoder, node: &Node<'_>) -> Option<Estimator> {
     let kernels = kernels();
     let Some((name, body)) = Body::of(node) else {
-        let help = format!("write `kernel: Interleaved(taps: 4)`; the kernels are {}", list(kernels.iter().copied()));
+        let help = format!(
+            "write `kernel: Interleaved(taps: 4)`; the kernels are {}",
+            list(kernels.iter().copied())
+        );
         no_word(decoder, node, "kernel", "a kernel", &kernels, help);
         return None;
     };
