@@ -29,7 +29,7 @@ pub enum LoadError {
         bytes: u64,
         /// Largest binding on the device.
         limit: u64,
-        /// Name of the limit in [`wgpu::Limits`].
+        /// Name of the limit in [`wgpu::Limits`](crate::wgpu::Limits).
         limit_name: &'static str,
     },
     /// Tables in storage buffers that the device does not have.

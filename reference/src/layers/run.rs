@@ -4,7 +4,7 @@ use super::grid::Grid;
 use super::layer::LayerStack;
 use super::layer_error::LayerError;
 
-/// MCML's letter for the format of the output. MCML writes text for both, and so does [`LayerResult::to_mco`].
+/// MCML's letter for the format of the output. MCML writes text for both, and so does [`LayerResult::to_mco`](super::LayerResult::to_mco).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum OutputFormat {
     /// `A`: text.
