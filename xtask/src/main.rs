@@ -24,8 +24,8 @@ Commands:
   demo    Find or install a Vulkan driver, build, and render a labelled contact sheet of the profile models
   test    Find or install a Vulkan driver, then run every test
   ci [--quick] [--keep-going]
-          The gate: formatting, spelling, dependencies, lints, documentation, every test, accuracy, tables, the oldest
-          Rust and packages; ends with what was run, how long it took, and what was not run and why. With --quick, only
+          The gate: formatting, spelling, dependencies, lints, documentation, every test, wgpu 29, accuracy, tables
+          and the oldest Rust; ends with what was run, how long it took, and what was not run and why. With --quick, only
           formatting, lints and unit tests; with --keep-going, the steps after a failed one too
   bless   Accept the texts and pictures that the tests now produce; then look at `git diff`
   accuracy [--check]
