@@ -61,9 +61,12 @@ fn copy_of_the_crate(bindings: &str) -> PathBuf {
     }
     copy(&crate_folder.join("src"), &to.join("runtime/src"));
     let manifest = fs::read_to_string(crate_folder.join("Cargo.toml")).unwrap();
-    // The passes alone: neither the build script's dependencies nor those of tests.
+    // The passes alone: neither the build script's dependencies nor those of tests. But `syn` with the features that it
+    // has in the test of the consumer: nearly all crates are built with it, and those of that test serve here too.
     let (manifest, _) = manifest.split_once("[build-dependencies]").unwrap();
-    fs::write(to.join("runtime/Cargo.toml"), manifest.replace("readme = \"README.md\"\n", "")).unwrap();
+    let manifest = manifest.replace("readme = \"README.md\"\n", "");
+    fs::write(to.join("runtime/Cargo.toml"), manifest + "[build-dependencies]\nsyn.workspace = true\n")
+        .unwrap();
     fs::write(to.join("runtime/bindings.rs"), bindings).unwrap();
     fs::write(
         to.join("runtime/build.rs"),
@@ -100,7 +103,7 @@ fn build(bindings: &str) -> (bool, String) {
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let mut command = Command::new(cargo);
     command.current_dir(&package).args(["build", "--package", "subsurface-runtime", "--offline"]);
-    // As the test of the consumer builds: what one has built of wgpu the other finds.
+    // As the test of the consumer builds, and into its folder.
     command.args(["--config", "profile.dev.package.'*'.opt-level=0", "--config", "profile.dev.debug=false"]);
     let target = Path::new(env!("CARGO_TARGET_TMPDIR")).join("consumer/target");
     command.env("CARGO_TARGET_DIR", target).env("CARGO_TERM_COLOR", "never");

@@ -12,9 +12,9 @@
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
-use std::process::Command;
 
-use crate::shell::{self, Failure, cargo, run};
+use crate::driver::Build;
+use crate::shell::{self, Failure, cargo};
 
 /// Where the page and its figures are, from the root.
 const PAGE: &str = "docs/accuracy.md";
@@ -38,7 +38,7 @@ pub(crate) fn run_command(arguments: &[String]) -> Result<(), Failure> {
         [flag] if flag == "--check" => true,
         _ => return Err(Failure("usage: cargo xtask accuracy [--check]".into())),
     };
-    run(cargo().args(["build", "--package", "subsurface-cli"]))?;
+    Build::Test.run()?;
     let scratch = shell::root().join(SCRATCH);
     // Runs that are there would be gone on with.
     let _ = std::fs::remove_dir_all(&scratch);
@@ -96,13 +96,10 @@ fn generate(prose: &str) -> Result<Vec<Written>, Failure> {
 
 /// Runs the command line; what it prints.
 pub(crate) fn subsurface(arguments: &str) -> Result<String, Failure> {
-    let name = format!("subsurface{}", std::env::consts::EXE_SUFFIX);
-    let program = shell::target().join("debug").join(name);
-    let output = Command::new(&program)
-        .args(arguments.split_whitespace())
-        .current_dir(shell::root())
-        .output()
-        .map_err(|error| Failure(format!("cannot start {}: {error}", program.display())))?;
+    let mut program = Build::Test.program();
+    let output = program.args(arguments.split_whitespace()).output().map_err(|error| {
+        Failure(format!("cannot start {}: {error}", Path::new(program.get_program()).display()))
+    })?;
     if output.status.success() {
         return String::from_utf8(output.stdout)
             .map_err(|_| Failure(format!("`subsurface {arguments}` printed no text")));
@@ -113,8 +110,7 @@ pub(crate) fn subsurface(arguments: &str) -> Result<String, Failure> {
 
 /// The command of the conformance suite's tests whose name has `filter` in it, and the tables they print.
 fn published(filter: &str) -> Result<String, Failure> {
-    let arguments =
-        format!("test --package subsurface --test conformance -- --nocapture --test-threads 1 {filter}");
+    let arguments = format!("test --workspace --test conformance -- --nocapture --test-threads 1 {filter}");
     let output = cargo()
         .args(arguments.split_whitespace())
         .output()

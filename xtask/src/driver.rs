@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-use crate::shell::{Failure, cargo, run};
+use crate::shell::{self, Failure, cargo, run};
 
 /// Debian's software Vulkan driver (lavapipe) and the loader.
 const PACKAGES: [&str; 2] = ["mesa-vulkan-drivers", "libvulkan1"];
@@ -26,12 +26,38 @@ pub(crate) enum Build {
 }
 
 impl Build {
-    /// The arguments that select the program for `cargo build` and `cargo run`.
-    pub(crate) fn arguments(self) -> &'static [&'static str] {
+    /// The arguments for Cargo that build the program.
+    ///
+    /// Those for tests name a test of the program in the whole workspace: Cargo builds dependencies with the features
+    /// that all packages it is asked for want, so that the program alone would have other dependencies than the tests.
+    fn arguments(self) -> &'static [&'static str] {
         match self {
-            Self::Test => &["--package", "subsurface-cli"],
-            Self::Demo => &["--package", "subsurface-cli", "--profile", "demo", "--no-default-features"],
+            Self::Test => &["test", "--workspace", "--test", "usage", "--no-run"],
+            Self::Demo => {
+                &["build", "--package", "subsurface-cli", "--profile", "demo", "--no-default-features"]
+            }
         }
+    }
+
+    /// The folder below the target folder that the program is built into.
+    fn folder(self) -> &'static str {
+        match self {
+            Self::Test => "debug",
+            Self::Demo => "demo",
+        }
+    }
+
+    /// Builds the program.
+    pub(crate) fn run(self) -> Result<(), Failure> {
+        run(cargo().args(self.arguments()))
+    }
+
+    /// The program, in the root.
+    pub(crate) fn program(self) -> Command {
+        let name = format!("subsurface{}", std::env::consts::EXE_SUFFIX);
+        let mut command = Command::new(shell::target().join(self.folder()).join(name));
+        command.current_dir(shell::root());
+        command
     }
 }
 
@@ -42,7 +68,7 @@ pub(crate) fn ensure(build: Build) -> Result<(), Failure> {
         println!("No Vulkan driver: installing {} during the build …", PACKAGES.join(" "));
         std::thread::spawn(install)
     });
-    let built = run(cargo().arg("build").args(build.arguments()));
+    let built = build.run();
     let installed = installing.map(|thread| {
         thread.join().unwrap_or_else(|_| Err(Failure("the installation broke off".to_owned())))
     });
@@ -79,9 +105,7 @@ fn is_described() -> bool {
 
 /// True if `subsurface adapter` finds one.
 fn has_adapter(build: Build) -> bool {
-    let mut command = cargo();
-    command.args(["run", "--quiet"]).args(build.arguments()).args(["--", "adapter"]);
-    command.status().is_ok_and(|status| status.success())
+    build.program().arg("adapter").status().is_ok_and(|status| status.success())
 }
 
 fn install() -> Result<(), Failure> {

@@ -78,9 +78,7 @@ fn demo(arguments: &[String]) -> Result<(), Failure> {
     let sheet = shell::root().join("target").join("demo").join("contact-sheet.png");
     std::fs::create_dir_all(sheet.parent().unwrap_or(&sheet))
         .map_err(|error| Failure(format!("cannot make the folder of {}: {error}", sheet.display())))?;
-    let mut command = cargo();
-    command.args(["run", "--quiet"]).args(Build::Demo.arguments()).args(["--", "contact-sheet", "--out"]);
-    run(command.arg(&sheet).args(arguments))
+    run(Build::Demo.program().args(["contact-sheet", "--out"]).arg(&sheet).args(arguments))
 }
 
 /// Runs every test; further arguments go to `cargo test`.

@@ -6,7 +6,8 @@
 use std::path::Path;
 
 use crate::accuracy::{read, subsurface};
-use crate::shell::{self, Failure, cargo, run};
+use crate::driver::Build;
+use crate::shell::{self, Failure};
 
 /// The pages, from the root.
 const PAGES: [&str; 2] = ["README.md", "materials/README.md"];
@@ -20,7 +21,7 @@ pub(crate) fn run_command(arguments: &[String]) -> Result<(), Failure> {
         [flag] if flag == "--check" => true,
         _ => return Err(Failure("usage: cargo xtask tables [--check]".into())),
     };
-    run(cargo().args(["build", "--package", "subsurface-cli"]))?;
+    Build::Test.run()?;
     let mut stale = Vec::new();
     for page in PAGES {
         let path = shell::root().join(page);

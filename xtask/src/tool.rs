@@ -59,7 +59,7 @@ fn folder() -> PathBuf {
 fn install(tool: &Tool) -> Result<(), String> {
     println!("Installing {} {} into {} …", tool.package, tool.version, folder().display());
     let mut command = cargo();
-    // Not optimized: a tool runs for seconds, and optimizing it takes minutes.
+    // Neither optimized nor for a debugger: a tool runs for seconds, and either takes minutes.
     command.args([
         "install",
         tool.package,
@@ -71,7 +71,8 @@ fn install(tool: &Tool) -> Result<(), String> {
         "--root",
     ]);
     // A folder of its own for the build: the tool shares no artifact with the workspace, and leaves none behind.
-    run(command.arg(folder()).env_remove("CARGO_TARGET_DIR")).map_err(|failure| failure.0)
+    command.arg(folder()).env_remove("CARGO_TARGET_DIR").env("CARGO_PROFILE_DEV_DEBUG", "false");
+    run(&mut command).map_err(|failure| failure.0)
 }
 
 fn starts(program: &Path) -> bool {

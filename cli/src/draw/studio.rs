@@ -48,7 +48,7 @@ pub struct Frame<'a> {
     pub shown: Shown,
     /// Whether the intermediate targets are wanted.
     pub wants_aovs: bool,
-    /// Whether each pass is timed: the frame is then drawn twice, since the first time compiles shaders.
+    /// Whether each pass is timed: a studio's first frame is then drawn twice, since the first time compiles shaders.
     pub wants_timings: bool,
 }
 
@@ -106,6 +106,8 @@ pub struct Studio {
     linear: CompositePass,
     /// `None` on a device that cannot time passes.
     timer: Option<PassTimer>,
+    /// A frame was drawn, so that drivers have compiled what they compile at the first use.
+    is_warm: bool,
 }
 
 impl Studio {
@@ -122,7 +124,7 @@ impl Studio {
             let descriptor = CompositeDescriptor { format: LINEAR_FORMAT, ..Default::default() };
             Ok((renderer, CompositePass::new(&device.device, &descriptor)))
         })?;
-        Ok(Self { device, renderer, linear, timer })
+        Ok(Self { device, renderer, linear, timer, is_warm: false })
     }
 
     /// The adapter that draws, for people.
@@ -132,8 +134,10 @@ impl Studio {
 
     /// Draws a frame.
     pub fn draw(&mut self, frame: &Frame<'_>) -> Result<Drawn, Failure> {
-        let Self { device, renderer, linear, timer } = self;
-        device.checked(|| draw(device, renderer, linear, timer.as_ref(), frame))
+        let Self { device, renderer, linear, timer, is_warm } = self;
+        let drawn = device.checked(|| draw(device, renderer, linear, timer.as_ref(), *is_warm, frame))?;
+        *is_warm = true;
+        Ok(drawn)
     }
 }
 
@@ -142,6 +146,7 @@ fn draw(
     renderer: &mut Renderer,
     linear: &mut CompositePass,
     timer: Option<&PassTimer>,
+    is_warm: bool,
     frame: &Frame<'_>,
 ) -> Result<Drawn, Failure> {
     let factor = frame.supersampling.max(1);
@@ -173,8 +178,9 @@ fn draw(
             None
         }
         Some(timer) => {
-            // The first time compiles shaders.
-            device.submit(render)?;
+            if !is_warm {
+                device.submit(render)?;
+            }
             device.submit(|encoder| {
                 render(encoder)?;
                 timer.resolve(encoder);
@@ -185,7 +191,9 @@ fn draw(
             Some(Timings { passes, by_device: true })
         }
         None => {
-            run_passes(device, renderer, &objects, &display)?;
+            if !is_warm {
+                run_passes(device, renderer, &objects, &display)?;
+            }
             Some(Timings { passes: run_passes(device, renderer, &objects, &display)?, by_device: false })
         }
     };
