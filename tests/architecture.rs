@@ -153,7 +153,9 @@ fn is_path(word: &str) -> bool {
         word.contains(|sign: char| " <>()@:…\"".contains(sign)) || word.starts_with("target/");
     let is_file =
         [".rs", ".wgsl", ".ron", ".md", ".toml", ".csv", ".yml"].iter().any(|end| word.ends_with(end));
-    !has_other_signs && (word.contains('/') || is_file)
+    // A word of slashes alone begins a comment.
+    let has_letters = word.chars().any(char::is_alphanumeric);
+    !has_other_signs && has_letters && (word.contains('/') || is_file)
 }
 
 /// `a` and `b` of `{a,b}`, in place.
@@ -230,7 +232,9 @@ fn every_link_of_every_page_leads_somewhere() {
 #[test]
 fn the_checks_tell_paths_from_other_words() {
     assert!(is_path("profile/src/burley.rs") && is_path("emit.rs") && is_path("shaders/{lib,gather}/"));
-    assert!(!is_path("cargo xtask ci") && !is_path("a::b") && !is_path("min_binding_size"));
+    assert!(
+        !is_path("cargo xtask ci") && !is_path("a::b") && !is_path("min_binding_size") && !is_path("///")
+    );
     assert_eq!(expanded("shaders/{lib, gather}/x"), ["shaders/lib/x", "shaders/gather/x"]);
     assert!(
         matches("materials/*.ron", "materials/skin.ron") && !matches("materials/*.ron", "materials/a/b.ron")
