@@ -142,6 +142,12 @@ impl Estimator {
         matches!(self, Self::Interleaved { .. })
     }
 
+    /// Whether its last compute stage has another shape for software drivers: see [`ComputeShape`](crate::ComputeShape).
+    #[must_use]
+    pub const fn has_software_shape(self) -> bool {
+        matches!(self, Self::Interleaved { .. })
+    }
+
     /// Whether it reads the edge-spread curves of the profiles beside their quantiles.
     #[must_use]
     pub const fn reads_edge_curves(self) -> bool {
@@ -166,7 +172,8 @@ impl Estimator {
         let first = ["first_fragment", "first_compute"].into_iter().filter(move |_| self.has_two_stages());
         // The compute path packs pixels as it classifies them.
         let pack = ["pack_fragment"].into_iter().filter(move |_| self.packs_pixels());
-        always.into_iter().chain(first).chain(pack)
+        let software = ["subsurface_software_compute"].into_iter().filter(move |_| self.has_software_shape());
+        always.into_iter().chain(first).chain(pack).chain(software)
     }
 }
 

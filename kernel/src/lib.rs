@@ -16,6 +16,7 @@
 //!
 //! What this crate does not know: naga, wgpu, files, materials, and how light scatters.
 
+mod compute_shape;
 pub mod constants;
 mod debug_view;
 mod estimator;
@@ -26,6 +27,7 @@ mod parts_error;
 mod rejection;
 mod tap_counts;
 
+pub use compute_shape::{ComputeShape, needs_zeroed_workgroup_memory};
 pub use constants::{Constant, ConstantValue};
 pub use debug_view::DebugView;
 pub use estimator::{Estimator, EstimatorError};

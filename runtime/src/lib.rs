@@ -87,8 +87,8 @@ pub use pass::subsurface::{Path, SubsurfaceDescriptor, SubsurfaceInputs, Subsurf
 pub use readback::{Readback, ReadbackError};
 pub use renderer::{Renderer, RendererDescriptor};
 pub use subsurface_kernel::{
-    DebugView, Estimator, EstimatorError, KernelModule, KernelParts, KernelPartsBuilder, OutputFormat,
-    PartsError, RowBinding,
+    ComputeShape, DebugView, Estimator, EstimatorError, KernelModule, KernelParts, KernelPartsBuilder,
+    OutputFormat, PartsError, RowBinding,
 };
 pub use target::{Target, TexelsError};
 pub use texture_format::{output_format, texture_format};

@@ -12,10 +12,9 @@
 // four of a common lattice. A pixel mixes the far fields that its window touches, where material and depth agree.
 
 /// Irradiance of a pixel after it has diffused, with `taps` taps per pixel; `side` says which of its block's pixels it
-/// is.
+/// is. For the pixels of a block at once: see `FarFields`.
 ///
-/// The ring is summed with the shares `beside` and `across` of the pixel's own block. A pixel that agrees with no
-/// block, such as one of a strand as thin as a pixel, keeps its own light.
+/// The ring is summed with the shares `beside` and `across` of the pixel's own block.
 fn diffuse_interleaved(
     at: Receiver,
     side: vec2i,
@@ -27,10 +26,28 @@ fn diffuse_interleaved(
 ) -> vec3f {
     let columns = window_shares(side.x, taps);
     let rows = window_shares(side.y, taps);
-    let nothing = Mixture(Gathered(vec3f(0.0), vec3f(0.0)), vec3f(0.0), 0.0);
-    let above = with_row(nothing, at, fields.above_left, fields.above, fields.above_right, rows.x * columns);
+    let above = with_row(
+        empty_mixture(),
+        at,
+        fields.above_left,
+        fields.above,
+        fields.above_right,
+        rows.x * columns,
+    );
     let upper = with_row(above, at, fields.left, fields.home, fields.right, rows.y * columns);
     let mixture = with_row(upper, at, fields.below_left, fields.below, fields.below_right, rows.z * columns);
+    let counts = ring_counts(at, fields.home);
+    return mixed_light(at, mixture, ring_light(at, ring, counts * beside, counts * across));
+}
+
+/// 1 where a pixel agrees with its block, else 0: the ring's shares are those of the block, so they count only there.
+fn ring_counts(at: Receiver, home: FarField) -> f32 {
+    return select(0.0, 1.0, far_field_agreement(at, home) > 0.0);
+}
+
+/// Irradiance of a pixel whose far field is `mixture` and whose ring gives `middle`. A pixel that agrees with no block,
+/// such as one of a strand as thin as a pixel, keeps its own light.
+fn mixed_light(at: Receiver, mixture: Mixture, middle: Gathered) -> vec3f {
     if mixture.window == 0.0 {
         return at.own;
     }
@@ -38,8 +55,5 @@ fn diffuse_interleaved(
     let centre = at.own_counts * (vec3f(1.0) - mixture.leaving / mixture.window);
     let near = Gathered(centre * at.own, centre);
     let far = Gathered(mixture.far.irradiance / mixture.window, mixture.far.weight / mixture.window);
-    // The ring's shares are those of the pixel's own block, so they count only where it agrees.
-    let counts = select(0.0, 1.0, far_field_agreement(at, fields.home) > 0.0);
-    let middle = ring_light(at, ring, counts * beside, counts * across);
     return diffused_irradiance(together(together(near, far), middle), at.own);
 }

@@ -106,6 +106,7 @@ pub const KERNELS: &[Module] = modules![
     "kernels/interleaved/receiver",
     "kernels/interleaved/ring",
     "kernels/interleaved/rows",
+    "kernels/interleaved/tile_memory",
     "kernels/interleaved/window",
     "kernels/probe",
     "kernels/separable",

@@ -1,10 +1,11 @@
-//! The commands of the README: `cargo xtask demo`, `test`, `ci`, `bless`, `accuracy` and `tables`.
+//! The commands of the README: `cargo xtask demo`, `test`, `ci`, `bless`, `accuracy`, `tables` and `shader-cost`.
 
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "a command line speaks to its user")]
 
 mod accuracy;
 mod driver;
 mod gate;
+mod shader_cost;
 mod shell;
 mod tables;
 mod tool;
@@ -24,8 +25,8 @@ Commands:
   demo    Find or install a Vulkan driver, build, and render a labelled contact sheet of the profile models
   test    Find or install a Vulkan driver, then run every test
   ci [--quick] [--keep-going]
-          The gate: formatting, spelling, dependencies, lints, documentation, every test, wgpu 29, accuracy, tables
-          and the oldest Rust; ends with what was run, how long it took, and what was not run and why. With --quick, only
+          The gate: formatting, spelling, dependencies, lints, documentation, every test, wgpu 29, accuracy, tables,
+          shader cost and the oldest Rust; ends with what was run, how long it took, and what was not run and why. With --quick, only
           formatting, lints and unit tests; with --keep-going, the steps after a failed one too
   bless   Accept the texts and pictures that the tests now produce; then look at `git diff`
   accuracy [--check]
@@ -34,6 +35,8 @@ Commands:
   tables [--check]
           Write the tables of README.md and materials/README.md that commands print; with --check, write nothing and
           fail where they differ
+  shader-cost [OPTIONS]
+          What GPU compilers make of the kernels: registers, spills, occupancy, cycles, loads; --help says more
 
 Examples:
   cargo xtask demo
@@ -41,6 +44,7 @@ Examples:
   cargo xtask test -p subsurface-runtime
   cargo xtask ci --quick
   cargo xtask accuracy --check
+  cargo xtask shader-cost --gpu navi21 --kernel interleaved:4
 ";
 
 fn main() -> ExitCode {
@@ -54,6 +58,7 @@ fn main() -> ExitCode {
         Some("bless") => bless(&rest),
         Some("accuracy") => accuracy::run_command(&rest),
         Some("tables") => tables::run_command(&rest),
+        Some("shader-cost") => shader_cost::run_command(&rest),
         Some("help" | "--help" | "-h") => {
             print!("{HELP}");
             Ok(())

@@ -17,7 +17,7 @@ use crate::target::Target;
 use crate::view::SubsurfaceView;
 use crate::viewport::Viewport;
 use crate::wgpu;
-use subsurface_kernel::DebugView;
+use subsurface_kernel::{ComputeShape, DebugView};
 
 use super::covering_pipeline::CoveringPipeline;
 use super::{PassError, uniform_buffer};
@@ -152,6 +152,15 @@ impl SubsurfacePass {
         match self.stages {
             Stages::Compute(_) => Path::Compute,
             Stages::Fragment(_) => Path::Fragment,
+        }
+    }
+
+    /// How the compute path shares its work; `None` on the fragment path, and for a kernel that has one shape for all
+    /// devices.
+    pub fn shape(&self) -> Option<ComputeShape> {
+        match &self.stages {
+            Stages::Compute(path) => path.shape(),
+            Stages::Fragment(_) => None,
         }
     }
 

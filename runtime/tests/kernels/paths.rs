@@ -4,7 +4,9 @@ use crate::buffers::{Buffers, DISTANCE_MM, noise};
 use crate::gpu::Gpu;
 use crate::setup::{Description, Diffuser, KERNELS, PATHS, psnr, shared_gpu};
 use subsurface_codegen::Estimator;
-use subsurface_runtime::{Extent, GBuffer, Path, SubsurfaceView, TRANSLUCENT_STENCIL, Target, wgpu};
+use subsurface_runtime::{
+    ComputeShape, Extent, GBuffer, Path, SubsurfaceView, TRANSLUCENT_STENCIL, Target, wgpu,
+};
 
 /// Sides that are multiples of neither a tile nor a block.
 const SIZE: [u32; 2] = [53, 39];
@@ -49,6 +51,43 @@ fn compute_and_fragment_give_the_same_picture() {
         }
         println!("{kernel}: the paths agree to {least:.1} dB");
     }
+}
+
+#[test]
+fn both_shapes_of_the_compute_path_give_the_same_picture() {
+    let shaped = KERNELS.into_iter().filter(|kernel| kernel.has_software_shape());
+    for kernel in shaped {
+        let description = Description::all_profiles(kernel);
+        let mut passes = ComputeShape::ALL.map(|shape| Diffuser::shaped(&description, shape));
+        for (pass, shape) in passes.iter_mut().zip(ComputeShape::ALL) {
+            assert_eq!(pass.pass().shape(), Some(shape));
+        }
+        let [hardware, software] = &mut passes;
+        for material in 0..description.stems.len() as u32 {
+            let second = (material + 1) % description.stems.len() as u32;
+            let buffers = scene(SIZE, material, second);
+            let pictures = (hardware.diffuse(&view(), &buffers), software.diffuse(&view(), &buffers));
+            let decibels = psnr(&pictures.0, &pictures.1);
+            // The same sums of the same numbers: what differs is what a compiler contracts.
+            assert!(
+                decibels >= 100.0,
+                "{kernel}, {}: {decibels:.1} dB",
+                description.stems[material as usize]
+            );
+        }
+    }
+}
+
+#[test]
+fn the_adapter_decides_on_the_shape_that_nobody_asks_for() {
+    let mut pass = Diffuser::new(&Description::all_profiles(Estimator::default()), Path::Compute);
+    let is_cpu = shared_gpu().device.adapter_info().device_type == wgpu::DeviceType::Cpu;
+    let expected = if is_cpu { ComputeShape::Software } else { ComputeShape::Hardware };
+    assert_eq!(pass.pass().shape(), Some(expected));
+    let mut fragment = Diffuser::new(&Description::all_profiles(Estimator::default()), Path::Fragment);
+    assert_eq!(fragment.pass().shape(), None);
+    let mut other = Diffuser::new(&Description::all_profiles(Estimator::Dense), Path::Compute);
+    assert_eq!(other.pass().shape(), None);
 }
 
 /// A stencil that marks the pixels of any material.

@@ -8,8 +8,8 @@ use subsurface_codegen::{Compiler, Estimator, OutputFormat, Rejection};
 use subsurface_kernel::constants::FILTER_QUANTILE;
 use subsurface_profile::{Channel, Length, Medium, ModelKind, RadialProfile};
 use subsurface_runtime::{
-    DebugView, GBuffer, KernelParts, Path, SubsurfaceDescriptor, SubsurfaceInputs, SubsurfacePass,
-    SubsurfaceView, Target, wgpu,
+    ComputeShape, DebugView, GBuffer, KernelParts, Path, SubsurfaceDescriptor, SubsurfaceInputs,
+    SubsurfacePass, SubsurfaceView, Target, wgpu,
 };
 
 pub(crate) const MEAN_FREE_PATH_MM: [f64; 3] = [1.3, 0.95, 0.67];
@@ -226,6 +226,15 @@ impl Diffuser {
     /// A pass that was made by a test.
     pub(crate) fn of_pass(gpu: &'static Gpu, pass: SubsurfacePass) -> Self {
         Self { gpu, pass: Some(pass), made_for: None }
+    }
+
+    /// A pass on the compute path that shares its work as asked.
+    pub(crate) fn shaped(description: &Description, shape: ComputeShape) -> Self {
+        let gpu = shared_gpu();
+        let descriptor =
+            SubsurfaceDescriptor { path: Some(Path::Compute), shape: Some(shape), ..descriptor() };
+        let pass = SubsurfacePass::new(&gpu.device, &gpu.load(description.compile()), &descriptor);
+        Self::of_pass(gpu, pass.unwrap_or_else(|error| panic!("{error}")))
     }
 
     fn make(description: &Description, stencil: Option<wgpu::TextureFormat>, path: Path) -> SubsurfacePass {

@@ -10,6 +10,11 @@ struct Mixture {
     window: f32,
 }
 
+/// The mixture of no far field.
+fn empty_mixture() -> Mixture {
+    return Mixture(Gathered(vec3f(0.0), vec3f(0.0)), vec3f(0.0), 0.0);
+}
+
 /// Share of a far field that a pixel may take: 1 for one of its own surface, 0 for another's.
 fn far_field_agreement(at: Receiver, field: FarField) -> f32 {
     let is_other = REJECT_BY_MATERIAL && field.surface.material != at.surface.material;
@@ -23,8 +28,8 @@ fn far_field_agreement(at: Receiver, field: FarField) -> f32 {
 fn with_field(mixture: Mixture, at: Receiver, field: FarField, share: f32) -> Mixture {
     let agreed = share * far_field_agreement(at, field);
     let far = Gathered(agreed * field.light.irradiance, agreed * field.light.weight);
-    let leaving = agreed * (vec3f(1.0) - field.centre);
-    return Mixture(together(mixture.far, far), mixture.leaving + leaving, mixture.window + agreed);
+    let leaving = mixture.leaving + agreed * field.leaving;
+    return Mixture(together(mixture.far, far), leaving, mixture.window + agreed);
 }
 
 /// `mixture` with three fields that lie side by side.

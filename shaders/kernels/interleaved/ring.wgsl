@@ -34,6 +34,18 @@ fn ring_light(at: Receiver, ring: Ring, beside: vec3f, across: vec3f) -> Gathere
     return together(together(left_right, above_below), together(upper, lower));
 }
 
+/// Where pixel `neighbour` of the ring lies, 0 to 7 in rows, seen from the centre.
+fn ring_place(neighbour: i32) -> vec2i {
+    // Past the centre.
+    let place = neighbour + neighbour / 4;
+    return vec2i(place % 3, place / 3) - 1;
+}
+
+/// Share on a flat surface of a pixel that lies `apart` from the centre.
+fn ring_share(apart: vec2i, beside: vec3f, across: vec3f) -> vec3f {
+    return select(across, beside, dot(apart, apart) == 1);
+}
+
 /// Light of one pixel of the ring, `apart` from the centre, whose share on a flat surface is `share`.
 fn pixel_light(at: Receiver, pixel: InputPixel, apart: vec2i, share: vec3f) -> Gathered {
     let is_other = REJECT_BY_MATERIAL && pixel.material != at.surface.material;

@@ -4,10 +4,10 @@ use super::step::{Outcome, Step};
 use crate::shell::{Failure, cargo, run};
 use crate::tool::{self, Found};
 use crate::toolchain;
-use crate::{accuracy, tables, test};
+use crate::{accuracy, shader_cost, tables, test};
 
 /// What every change passes before it is merged.
-pub(crate) const ALL: [Step; 13] = [
+pub(crate) const ALL: [Step; 14] = [
     FORMATTING,
     SPELLING,
     DEPENDENCIES,
@@ -18,6 +18,7 @@ pub(crate) const ALL: [Step; 13] = [
     TESTS_WITH_WGPU_29,
     ACCURACY,
     TABLES,
+    SHADER_COST,
     Step { title: "oldest Rust", what: "cargo +1.88 check --workspace --all-targets", run: oldest_rust },
     Step { title: "packages", what: "cargo package --workspace", run: packages },
     Step { title: "semantic versions", what: "cargo semver-checks", run: semantic_versions },
@@ -87,6 +88,9 @@ const ACCURACY: Step =
 
 const TABLES: Step = Step { title: "tables", what: "cargo xtask tables --check", run: tables_are_current };
 
+const SHADER_COST: Step =
+    Step { title: "shader cost", what: "cargo xtask shader-cost --check", run: shader_cost_is_current };
+
 fn passes(arguments: &[&str]) -> Result<Outcome, Failure> {
     run(cargo().args(arguments))?;
     Ok(Outcome::Passed)
@@ -139,6 +143,13 @@ fn accuracy_is_current() -> Result<Outcome, Failure> {
 fn tables_are_current() -> Result<Outcome, Failure> {
     tables::run_command(&["--check".to_owned()])?;
     Ok(Outcome::Passed)
+}
+
+fn shader_cost_is_current() -> Result<Outcome, Failure> {
+    if shader_cost::check()? {
+        return Ok(Outcome::Passed);
+    }
+    Ok(Outcome::NotRun("RADV is not here in the version whose figures were accepted: see above".to_owned()))
 }
 
 fn oldest_rust() -> Result<Outcome, Failure> {

@@ -4,7 +4,7 @@ use std::sync::{Mutex, PoisonError};
 
 use crate::bindings::kernel::{
     BindGroup1, ENTRY_CLASSIFY_COMPUTE, ENTRY_FIRST_COMPUTE, ENTRY_SUBSURFACE_COMPUTE,
-    SubsurfaceComputeBindGroup2, WORKGROUP_CLASSIFY_COMPUTE,
+    ENTRY_SUBSURFACE_SOFTWARE_COMPUTE, SubsurfaceComputeBindGroup2, WORKGROUP_CLASSIFY_COMPUTE,
 };
 use crate::extent::Extent;
 use crate::loaded_kernel::LoadedKernel;
@@ -12,7 +12,7 @@ use crate::pass::PassError;
 use crate::target::Target;
 use crate::texture_format::{output_format, texture_format};
 use crate::wgpu::{self, util::DeviceExt as _};
-use subsurface_kernel::{Estimator, OutputFormat};
+use subsurface_kernel::{ComputeShape, Estimator, OutputFormat, needs_zeroed_workgroup_memory};
 
 use super::descriptor::Settings;
 use super::intermediate::{Intermediate, intermediates, packed_pixels};
@@ -30,6 +30,8 @@ const NO_DISPATCH: [u32; 3] = [0, 0, 1];
 #[derive(Debug)]
 pub(super) struct ComputePath {
     estimator: Estimator,
+    /// `None` if the estimator has one shape for all devices.
+    shape: Option<ComputeShape>,
     classify: wgpu::ComputePipeline,
     first: Option<wgpu::ComputePipeline>,
     diffuse: wgpu::ComputePipeline,
@@ -99,12 +101,17 @@ impl ComputePath {
                 entry_point: Some(entry_point),
                 compilation_options: wgpu::PipelineCompilationOptions {
                     constants: settings.constants(),
-                    ..Default::default()
+                    zero_initialize_workgroup_memory: needs_zeroed_workgroup_memory(entry_point),
                 },
                 cache: settings.pipeline_cache.as_ref(),
             })
         };
         let estimator = kernel.estimator();
+        let shape = estimator.has_software_shape().then(|| settings.shape(device));
+        let diffuse = match shape {
+            Some(ComputeShape::Software) => ENTRY_SUBSURFACE_SOFTWARE_COMPUTE,
+            Some(ComputeShape::Hardware) | None => ENTRY_SUBSURFACE_COMPUTE,
+        };
         let first = estimator.has_two_stages().then(|| pipeline("first stage", ENTRY_FIRST_COMPUTE));
         let no_dispatch = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
             label: Some(&label.of("empty dispatch")),
@@ -113,12 +120,17 @@ impl ComputePath {
         });
         Ok(Self {
             estimator,
+            shape,
             classify: pipeline("classification", ENTRY_CLASSIFY_COMPUTE),
             first,
-            diffuse: pipeline("stage", ENTRY_SUBSURFACE_COMPUTE),
+            diffuse: pipeline("stage", diffuse),
             layout,
             no_dispatch,
         })
+    }
+
+    pub(super) fn shape(&self) -> Option<ComputeShape> {
+        self.shape
     }
 
     /// Textures and lists for viewports of `size`.

@@ -3,6 +3,7 @@
 use crate::label::Label;
 use crate::timestamps::Timestamps;
 use crate::wgpu;
+use subsurface_kernel::ComputeShape;
 
 use super::{NAME, Path};
 
@@ -28,6 +29,9 @@ pub struct SubsurfaceDescriptor<'a> {
     /// The path to take. `None`, the default: compute shaders where the device has them and can store to `format`, else
     /// fragment shaders; [`compute_refusal`](crate::SubsurfacePass::compute_refusal) says why.
     pub path: Option<Path>,
+    /// How the compute path shares its work, where the kernel has a choice. `None`, the default: by the kind of adapter,
+    /// a CPU or not.
+    pub shape: Option<ComputeShape>,
     /// Whether material numbers come from a texture of their own,
     /// [`SubsurfaceInputs::material_ids`](crate::SubsurfaceInputs::material_ids); by default not.
     pub material_ids: bool,
@@ -44,6 +48,7 @@ impl Default for SubsurfaceDescriptor<'_> {
             format: wgpu::TextureFormat::Rgba16Float,
             stencil: None,
             path: None,
+            shape: None,
             material_ids: false,
             pipeline_cache: None,
             timestamps: None,
@@ -63,6 +68,7 @@ impl SubsurfaceDescriptor<'_> {
             format: self.format,
             stencil: self.stencil,
             path: self.path,
+            shape: self.shape,
             material_ids: self.material_ids,
             pipeline_cache: self.pipeline_cache.cloned(),
             timestamps: self.timestamps.clone(),
@@ -77,6 +83,7 @@ pub(super) struct Settings {
     pub(super) format: wgpu::TextureFormat,
     pub(super) stencil: Option<wgpu::TextureFormat>,
     pub(super) path: Option<Path>,
+    shape: Option<ComputeShape>,
     material_ids: bool,
     pub(super) pipeline_cache: Option<wgpu::PipelineCache>,
     pub(super) timestamps: Option<Timestamps>,
@@ -85,6 +92,14 @@ pub(super) struct Settings {
 impl Settings {
     pub(super) fn has_material_ids(&self) -> bool {
         self.material_ids
+    }
+
+    /// The shape that was asked for, or else the one that suits the device.
+    pub(super) fn shape(&self, device: &wgpu::Device) -> ComputeShape {
+        self.shape.unwrap_or_else(|| match device.adapter_info().device_type {
+            wgpu::DeviceType::Cpu => ComputeShape::Software,
+            _ => ComputeShape::Hardware,
+        })
     }
 
     /// Values of the module's `override`s.
