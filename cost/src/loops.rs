@@ -11,7 +11,7 @@ use subsurface_kernel::constants::PIXELS_OF_BLOCK;
 
 use crate::Failure;
 use crate::copy::Copier;
-use crate::stage::Reached;
+use crate::stage::{Reached, TILE_SIDE};
 
 /// How often a loop runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,8 +46,8 @@ impl Loop {
         Ok(match (self.function.as_str(), self.place) {
             // A block's taps are those of its four pixels.
             ("gather_far_field", 0) => Some(Rounds::Long(f64::from(PIXELS_OF_BLOCK) * taps)),
-            // What 256 invocations load for all: a tile and the pixels around it.
-            ("load_tile", 0) => Some(Rounds::Long(18.0 * 18.0 / 256.0)),
+            // What an invocation for each pixel of a tile loads: these and the pixels around them.
+            ("load_tile", 0) => Some(Rounds::Long((f64::from(TILE_SIDE + 2) / f64::from(TILE_SIDE)).powi(2))),
             // Rows and columns of the blocks around, then the ring.
             ("subsurface_compute" | "subsurface_fragment", 0 | 1) => Some(Rounds::Short(3)),
             ("subsurface_compute" | "subsurface_fragment", 2) => Some(Rounds::Short(8)),

@@ -64,10 +64,10 @@ struct Arguments {
     #[arg(long, value_name = "FILE.json")]
     json: Option<PathBuf>,
     /// Fail where a figure differs by more than 5 % from the accepted ones.
-    #[arg(long, conflicts_with = "bless")]
+    #[arg(long, conflicts_with_all = ["bless", "materials", "gpus", "kernels"])]
     check: bool,
-    /// Accept the figures.
-    #[arg(long)]
+    /// Accept the figures of the presets: all kernels, all GPUs.
+    #[arg(long, conflicts_with_all = ["materials", "gpus", "kernels"])]
     bless: bool,
     /// Print the figures of one GPU, which the environment names, as JSON: how the command runs itself.
     #[arg(long, hide = true)]

@@ -11,7 +11,7 @@ use crate::Failure;
 use crate::loops::blocks_of;
 
 /// Pixels along each side of the tiles that the compute path lists: a workgroup takes one.
-const TILE_SIDE: u32 = 16;
+pub(crate) const TILE_SIDE: u32 = 16;
 
 /// An entry point, with a module in which nothing is left to be overridden.
 #[derive(Clone, Debug)]

@@ -19,6 +19,7 @@ fn help_has_examples() {
 fn what_cannot_be_is_refused_with_what_can() {
     for (arguments, expected) in [
         (["--gpu", "navi99"], "possible values: polaris10"),
+        (["--bless", "--gpu=navi21"], "cannot be used with"),
         (["--kernel", "interlaced"], "there are interleaved"),
         (["--materials", "no/such/folder"], "no/such/folder"),
     ] {

@@ -26,8 +26,8 @@ Commands:
   test    Find or install a Vulkan driver, then run every test
   ci [--quick] [--keep-going]
           The gate: formatting, spelling, dependencies, lints, documentation, every test, wgpu 29, accuracy, tables,
-          shader cost and the oldest Rust; ends with what was run, how long it took, and what was not run and why. With --quick, only
-          formatting, lints and unit tests; with --keep-going, the steps after a failed one too
+          shader cost and the oldest Rust; ends with what was run, how long it took, and what was not run and why. With
+          --quick, only formatting, lints and unit tests; with --keep-going, the steps after a failed one too
   bless   Accept the texts and pictures that the tests now produce; then look at `git diff`
   accuracy [--check]
           Write docs/accuracy.md and its figures by running the commands that stand in xtask/accuracy.md; with

@@ -19,7 +19,7 @@ pub(crate) fn check() -> Result<bool, Failure> {
     match status.code() {
         Some(0) => Ok(true),
         Some(code) if NOT_COMPARED.contains(&code) => Ok(false),
-        _ => Err(Failure("figures differ from cost/blessed.json: see above".to_owned())),
+        _ => Err(Failure("`shader-cost --check` failed: see above".to_owned())),
     }
 }
 
