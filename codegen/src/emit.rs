@@ -122,7 +122,6 @@ fn emit_choices(glue: &mut Glue, choices: &Choices) {
             returned,
         ),
         ("Each pixel turns the two axes of the kernel.", "SEPARABLE_ROTATED", estimator.is_rotated()),
-        ("Stages read pixels that an earlier one packed.", "PACKS_PIXELS", estimator.packs_pixels()),
     ] {
         let _ = writeln!(text, "/// {docs}\nconst {name}: bool = {value};\n");
     }

@@ -24,7 +24,7 @@ pub(crate) struct Figures {
     /// The entry point.
     pub(crate) stage: String,
     /// Pixels of the frame that an invocation stands for.
-    pub(crate) pixels: u32,
+    pub(crate) pixels: f64,
     /// Vector registers of an invocation.
     pub(crate) vgprs: u32,
     /// Those that went to memory.
@@ -70,7 +70,7 @@ impl Figures {
             .iter()
             .map(|own| own.rounds(stage.estimator))
             .collect::<Result<Option<Vec<_>>, Failure>>()?;
-        let pixels = f64::from(stage.pixels);
+        let pixels = stage.pixels;
         let cycles = match &rounds {
             None => None,
             Some(rounds) => {

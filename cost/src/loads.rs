@@ -56,7 +56,7 @@ fn texel_bytes(name: &str, estimator: Estimator) -> Option<f64> {
             Estimator::Interleaved { .. } => 16.0,
             _ => 8.0,
         },
-        "second_intermediate_texture" | "second_intermediate_source" => 8.0,
+        "coarse_texture" | "coarse_source" => 8.0,
         _ => return None,
     })
 }

@@ -7,7 +7,7 @@
 
 use naga::{Arena, Block, Expression, Handle, Literal, Module, Statement, SwitchCase, SwitchValue};
 use subsurface_kernel::Estimator;
-use subsurface_kernel::constants::PIXELS_OF_BLOCK;
+use subsurface_kernel::constants::{PIXELS_OF_BLOCK, RING_TAPS};
 
 use crate::Failure;
 use crate::copy::Copier;
@@ -44,8 +44,12 @@ impl Loop {
     pub(crate) fn rounds(&self, estimator: Estimator) -> Result<Option<Rounds>, Failure> {
         let taps = f64::from(estimator.taps());
         Ok(match (self.function.as_str(), self.place) {
-            // A block's taps are those of its four pixels.
-            ("gather_far_field", 0) => Some(Rounds::Long(f64::from(PIXELS_OF_BLOCK) * taps)),
+            // A block's taps are those of its four pixels, less what the blocks around stand for.
+            ("gather_far_field", 0) => {
+                let ring = taps.min(f64::from(RING_TAPS));
+                Some(Rounds::Long(f64::from(PIXELS_OF_BLOCK) * taps - ring))
+            }
+            ("with_block_ring", 0) => Some(Rounds::Long(8.0)),
             // What an invocation for each pixel of a tile loads: these and the pixels around them.
             ("load_tile", 0) => Some(Rounds::Long((f64::from(TILE_SIDE + 2) / f64::from(TILE_SIDE)).powi(2))),
             // Rows and columns of the blocks around, then the ring.

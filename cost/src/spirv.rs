@@ -4,7 +4,6 @@ use naga::back::spv::{Options, PipelineOptions, WriterFlags, ZeroInitializeWorkg
 use naga::proc::{BoundsCheckPolicies, BoundsCheckPolicy};
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use naga::{Module, ShaderStage};
-use subsurface_kernel::needs_zeroed_workgroup_memory;
 
 use crate::Failure;
 use crate::stage::Stage;
@@ -35,11 +34,8 @@ pub(crate) fn words(
             image_load: BoundsCheckPolicy::Unchecked,
             binding_array: BoundsCheckPolicy::Unchecked,
         },
-        zero_initialize_workgroup_memory: if needs_zeroed_workgroup_memory(entry_point) {
-            ZeroInitializeWorkgroupMemoryMode::Native
-        } else {
-            ZeroInitializeWorkgroupMemoryMode::None
-        },
+        // The pass asks for none: its stages write what they read.
+        zero_initialize_workgroup_memory: ZeroInitializeWorkgroupMemoryMode::None,
         force_loop_bounding: true,
         ..Options::default()
     };

@@ -6,6 +6,7 @@ use naga::back::pipeline_constants::process_overrides;
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 use naga::{Block, Function, Handle, Module, ShaderStage, Statement};
 use subsurface_kernel::Estimator;
+use subsurface_kernel::constants::PIXELS_OF_BLOCK;
 
 use crate::Failure;
 use crate::loops::blocks_of;
@@ -20,7 +21,7 @@ pub(crate) struct Stage {
     pub(crate) entry_point: String,
     pub(crate) kind: ShaderStage,
     /// Pixels of the frame that one invocation stands for; 0 where stages do not run per pixel, as vertices do not.
-    pub(crate) pixels: u32,
+    pub(crate) pixels: f64,
     pub(crate) module: Module,
 }
 
@@ -44,13 +45,16 @@ impl Stage {
                     .map_err(|error| failed(error.to_string()))?;
             let pixels = match found.stage {
                 ShaderStage::Compute => {
-                    TILE_SIDE * TILE_SIDE / found.workgroup_size.iter().product::<u32>().max(1)
+                    let invocations = found.workgroup_size.iter().product::<u32>().max(1);
+                    f64::from(TILE_SIDE * TILE_SIDE) / f64::from(invocations)
                 }
-                ShaderStage::Fragment if entry_point == "first_fragment" && estimator.packs_pixels() => {
-                    subsurface_kernel::constants::PIXELS_OF_BLOCK
-                }
-                ShaderStage::Fragment => 1,
-                _ => 0,
+                ShaderStage::Fragment if estimator.packs_pixels() => match entry_point {
+                    "first_fragment" | "block_fragment" => f64::from(PIXELS_OF_BLOCK),
+                    "square_fragment" => f64::from(4 * PIXELS_OF_BLOCK),
+                    _ => 1.0,
+                },
+                ShaderStage::Fragment => 1.0,
+                _ => 0.0,
             };
             stages.push(Self {
                 estimator,

@@ -14,13 +14,6 @@ pub enum ComputeShape {
     Software,
 }
 
-/// Whether an entry point of the compute path counts on workgroup memory that begins with zeros. The others write what
-/// they read, so that a pass need not have it cleared.
-#[must_use]
-pub fn needs_zeroed_workgroup_memory(entry_point: &str) -> bool {
-    entry_point == "classify_compute"
-}
-
 impl ComputeShape {
     /// Both.
     pub const ALL: [Self; 2] = [Self::Hardware, Self::Software];

@@ -1,7 +1,7 @@
 //! Numbers that stand in Rust and in WGSL.
 //!
-//! Each is written once, here. [`ALL`] lists them with name, value and comment: the compiler declares those that a module
-//! uses, so no `.wgsl` file spells one.
+//! Each is written once, here. [`ALL`] lists them with name, value and comment: the compiler declares those that a
+//! module uses, so no `.wgsl` file spells one.
 
 /// A number that the compiler declares in WGSL.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -75,12 +75,37 @@ constants! {
     /// Side of a block, pixels: the pixels of a block share one far field.
     BLOCK_SIDE: I32(i32) = 2;
 
-    /// Depth difference, in pixels, up to which pixels of one material belong to one block or to one far field.
+    /// Depth difference, in pixels, up to which pixels of one material belong to one block, and to one far field
+    /// where the filter is small.
     BLOCK_DEPTH_PIXELS: F32(f64) = 6.0;
+
+    /// Share of a far field that pixels take where they no longer belong to it and are not yet REMOTE_DEPTH away.
+    REMOTE_AGREEMENT: F32(f64) = 1.0 / 256.0;
+
+    /// Depth from which pixels take nothing of a far field, in that up to which they belong to it.
+    REMOTE_DEPTH: F32(f64) = 8.0;
+
+    /// Part of a window that stands for all of it: where less agrees, the far field counts for less.
+    LEAST_WINDOW: F32(f64) = 1.0 / 16.0;
+
+    /// Depth, in its side, over which a square is one surface.
+    STEEPEST_SQUARE: F32(f64) = 2.0;
 
     /// Radii are drawn from the widest profile made wider by this factor: the other channels' tails and depth
     /// differences need more of the far taps than the profile itself has.
     FAR_STRETCH: F32(f64) = 1.2;
+
+    /// Taps of a block that the sum over the blocks around stands for, at most: that costs about as much.
+    RING_TAPS: U32(u32) = 2;
+
+    /// Square of a filter radius, pixels, by taps of the lattice, from which taps read squares of 4×4 pixels: there
+    /// they lie about six pixels apart.
+    SPARSE_TAP_AREA: F32(f64) = 13.0;
+
+    /// cos and sin of the step from tap to tap of a slice: the larger part of a quarter turn in the golden section,
+    /// and a quarter turn. Slices repeat each direction after every quarter turn, so it is a quarter turn that is to
+    /// be filled evenly.
+    LATTICE_TURN: Vec2([f64; 2]) = [-0.825_340_805_389_046_5, 0.564_634_886_417_550_4];
 
     /// Share of the stretched profile that is sampled; what lies beyond is renormalized.
     FAR_QUANTILE: F32(f64) = 0.98;
@@ -88,8 +113,8 @@ constants! {
     /// Slices of the common lattice: one for each block of any 2×2 blocks.
     LATTICE_SLICES: U32(u32) = 4;
 
-    /// Shares of a window in the blocks along an axis: in the block on the pixel's farther side, in its own, and on its
-    /// nearer side. The pixel lies a quarter of a block off the middle of its own.
+    /// Shares of a window in the blocks along an axis: in the block on the pixel's farther side, in its own, and on
+    /// its nearer side. The pixel lies a quarter of a block off the middle of its own.
     ///
     /// This window is as wide as two blocks: wherever the pixel lies, every slice has a quarter of it.
     EVEN_WINDOW: Vec3([f64; 3]) = [0.125, 0.5, 0.375];
@@ -104,7 +129,23 @@ constants! {
     NEAR_RADIUS_PIXELS: F32(f64) = 0.564_189_58;
 
     /// Radius of the disc with the area of nine pixels, pixels: 3 / √π.
-    FAR_RADIUS_PIXELS: F32(f64) = 3.0 * NEAR_RADIUS_PIXELS;
+    RING_RADIUS_PIXELS: F32(f64) = 3.0 * NEAR_RADIUS_PIXELS;
+
+    /// Pixels of the four blocks beside a block, less the disc of nine pixels.
+    PIXELS_BESIDE: F32(f64) = 11.0;
+
+    /// Pixels of the four blocks across its corners.
+    PIXELS_ACROSS: F32(f64) = 16.0;
+
+    /// Middle of the shell around the disc of nine pixels that has the area of PIXELS_BESIDE, pixels: half way from
+    /// 3/√π to √(20/π).
+    BESIDE_RADIUS_PIXELS: F32(f64) = 2.107_850_64;
+
+    /// Middle of the shell from there that has the area of PIXELS_ACROSS, pixels: half way from √(20/π) to 6/√π.
+    ACROSS_RADIUS_PIXELS: F32(f64) = 2.954_135_01;
+
+    /// Radius of the disc with the area of 36 pixels, pixels: those of a block and of the eight around it.
+    FAR_RADIUS_PIXELS: F32(f64) = 6.0 * NEAR_RADIUS_PIXELS;
 
     /// ½ log₃ 2
     HALF_LOG_3_OF_2: F32(f64) = 0.315_464_876_785_728_7;
@@ -112,6 +153,9 @@ constants! {
     /// Least energy that stands for all of it. Where taps found less than this share, the centre's own light fills it
     /// up: what little comes from a surface far behind must not be raised to a whole.
     SMALLEST_ENERGY: F32(f64) = 1e-3;
+
+    /// Largest share of the ring of pixels: what a form with an exponent below that of 1 holds.
+    LARGEST_RING: F32(f64) = 0.998;
 
     /// A weight below this divides nothing.
     SMALLEST_WEIGHT: F32(f64) = 1e-12;
@@ -127,8 +171,8 @@ constants! {
 /// Pixels of a block.
 pub const PIXELS_OF_BLOCK: u32 = (BLOCK_SIDE * BLOCK_SIDE) as u32;
 
-/// Knots of an edge curve lie at this power of even steps: the edge spread is steepest at the edge. The shaders take the
-/// root by two square roots.
+/// Knots of an edge curve lie at this power of even steps: the edge spread is steepest at the edge. The shaders take
+/// the root by two square roots.
 pub const EDGE_POWER: i32 = 4;
 
 /// Bytes of a texel of the profile curves: four f32.
@@ -143,7 +187,14 @@ mod tests {
         let area = |radius: f64| std::f64::consts::PI * radius * radius;
         // Eight digits, whose error counts twice.
         assert!((area(NEAR_RADIUS_PIXELS) - 1.0).abs() < 2e-8);
-        assert!((area(FAR_RADIUS_PIXELS) - 9.0).abs() < 9.0 * 2e-8);
+        assert!((area(RING_RADIUS_PIXELS) - 9.0).abs() < 9.0 * 2e-8);
+        assert!((area(FAR_RADIUS_PIXELS) - 36.0).abs() < 36.0 * 2e-8);
+        let radius = |area: f64| (area / std::f64::consts::PI).sqrt();
+        let [inner, middle, outer] =
+            [9.0, 9.0 + PIXELS_BESIDE, 9.0 + PIXELS_BESIDE + PIXELS_ACROSS].map(radius);
+        assert!((outer - FAR_RADIUS_PIXELS).abs() < 1e-6);
+        assert!((BESIDE_RADIUS_PIXELS - 0.5 * (inner + middle)).abs() < 1e-6);
+        assert!((ACROSS_RADIUS_PIXELS - 0.5 * (middle + outer)).abs() < 1e-6);
         assert!((HALF_LOG_3_OF_2 - 0.5 * 2f64.ln() / 3f64.ln()).abs() < 1e-15);
     }
 

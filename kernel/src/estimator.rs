@@ -170,8 +170,10 @@ impl Estimator {
             "subsurface_compute",
         ];
         let first = ["first_fragment", "first_compute"].into_iter().filter(move |_| self.has_two_stages());
-        // The compute path packs pixels as it classifies them.
-        let pack = ["pack_fragment"].into_iter().filter(move |_| self.packs_pixels());
+        // The compute path packs pixels and squares as it classifies them.
+        let pack = ["pack_fragment", "block_fragment", "square_fragment"]
+            .into_iter()
+            .filter(move |_| self.packs_pixels());
         let software = ["subsurface_software_compute"].into_iter().filter(move |_| self.has_software_shape());
         always.into_iter().chain(first).chain(pack).chain(software)
     }

@@ -27,7 +27,7 @@ mod parts_error;
 mod rejection;
 mod tap_counts;
 
-pub use compute_shape::{ComputeShape, needs_zeroed_workgroup_memory};
+pub use compute_shape::ComputeShape;
 pub use constants::{Constant, ConstantValue};
 pub use debug_view::DebugView;
 pub use estimator::{Estimator, EstimatorError};

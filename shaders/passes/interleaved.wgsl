@@ -1,9 +1,10 @@
-// uses: gather/{footprint, gathered, input, packed_pixel, point, view}, kernel/constants, kernels/interleaved, kernels/interleaved/{block_light, far_fields, mixture, receiver, ring, window}, lib/shared_exponent, passes/{subsurface, subsurface_fragment}
+// uses: gather/{footprint, gathered, input, packed_pixel, point, view}, kernel/constants, kernels/interleaved, kernels/interleaved/{block_light, coarse, coarse_square, far, far_fields, mixture, near, receiver, ring, window}, passes/{subsurface, subsurface_fragment}
 
-/// Taps per pixel of the far field.
+/// Taps per pixel of the far field, with those that the blocks around stand for.
 fn taps_at(point: SurfacePoint) -> f32 {
-    let pixels = u32(BLOCK_SIDE * BLOCK_SIDE);
-    return f32(footprint_taps(point, pixels * min(subsurface_view.taps, LARGEST_TAP_COUNT))) / f32(pixels);
+    let budget = min(subsurface_view.taps, LARGEST_TAP_COUNT);
+    let taps = footprint_taps(point, far_taps(budget)) + min(budget, RING_TAPS);
+    return f32(taps) / f32(BLOCK_SIDE * BLOCK_SIDE);
 }
 
 /// The pixels packed.
@@ -13,10 +14,22 @@ fn pack_fragment(@builtin(position) position: vec4f) -> @location(0) vec2u {
     return pack_pixel(input_surface(pixel), irradiance_at(pixel).rgb);
 }
 
+/// The blocks packed.
+@fragment
+fn block_fragment(@builtin(position) position: vec4f) -> @location(0) vec2u {
+    return packed_block(pixel_texture, vec2i(position.xy));
+}
+
+/// The squares of 4×4 pixels packed, below the blocks.
+@fragment
+fn square_fragment(@builtin(position) position: vec4f) -> @location(0) vec2u {
+    return packed_square(pixel_texture, vec2i(position.xy));
+}
+
 /// What the first stage keeps of a block.
 @fragment
-fn first_fragment(@builtin(position) position: vec4f) -> BlockTexels {
-    return texels_of_block(pixel_texture, vec2i(position.xy));
+fn first_fragment(@builtin(position) position: vec4f) -> @location(0) vec4u {
+    return texel_of_block(pixel_texture, coarse_texture, vec2i(position.xy));
 }
 
 /// Diffused irradiance of translucent pixels; every other pixel keeps its irradiance.
@@ -36,19 +49,17 @@ fn subsurface_fragment(@builtin(position) position: vec4f) -> @location(0) vec4f
     var mixture = empty_mixture();
     for (var row = 0; row < 3; row += 1) {
         for (var column = 0; column < 3; column += 1) {
-            let field = load_far_field(intermediate_texture, home + vec2i(column, row) - 1);
+            let field = load_far_field(intermediate_texture, coarse_texture, home + vec2i(column, row) - 1);
             mixture = with_field(mixture, at, field, rows[row] * columns[column]);
         }
     }
-    let counts = ring_counts(at, load_far_field(intermediate_texture, home));
-    let shares = textureLoad(second_intermediate_texture, home, 0);
-    let beside = counts * unpack_shared_exponent(shares.x);
-    let across = counts * unpack_shared_exponent(shares.y);
-    var middle = Gathered(vec3f(0.0), vec3f(0.0));
+    let shares = pixel_shares(unpack_near_field(far_field_words(intermediate_texture, home)));
+    var ring = Gathered(vec3f(0.0), vec3f(0.0));
     for (var neighbour = 0; neighbour < 8; neighbour += 1) {
         let apart = ring_place(neighbour);
-        let beside_it = unpack_pixel(load_packed_pixel(pixel_texture, pixel + apart));
-        middle = together(middle, pixel_light(at, beside_it, apart, ring_share(apart, beside, across)));
+        let neighbour_pixel = unpack_pixel(load_packed_pixel(pixel_texture, pixel + apart));
+        ring = together(ring, pixel_light(at, neighbour_pixel, apart, ring_share(apart, shares.beside, shares.across)));
     }
-    return vec4f(mixed_light(at, mixture, middle), own.a);
+    let is_home = accepts_far_field(at, block_surface(coarse_texture, home));
+    return vec4f(mixed_light(at, mixture, shares.centre, ring, is_home), own.a);
 }

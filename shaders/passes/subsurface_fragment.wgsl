@@ -2,8 +2,8 @@
 
 /// What the first stage of the kernel left for the second, if it has two.
 @group(2) @binding(0) var intermediate_texture: texture_2d<u32>;
-/// The rest of it, where one texel is too small.
-@group(2) @binding(1) var second_intermediate_texture: texture_2d<u32>;
+/// Squares of pixels that an earlier stage packed.
+@group(2) @binding(1) var coarse_texture: texture_2d<u32>;
 /// Pixels that an earlier stage packed.
 @group(2) @binding(2) var pixel_texture: texture_2d<u32>;
 

@@ -87,6 +87,7 @@ pub const GATHER: &[Module] = modules![
     "gather/tap",
     "gather/tile",
     "gather/tile_list",
+    "gather/tile_listing",
     "gather/view",
 ];
 
@@ -99,13 +100,18 @@ pub const KERNELS: &[Module] = modules![
     "kernels/interleaved/agreement",
     "kernels/interleaved/block",
     "kernels/interleaved/block_light",
+    "kernels/interleaved/block_ring",
+    "kernels/interleaved/coarse",
+    "kernels/interleaved/coarse_square",
     "kernels/interleaved/far",
     "kernels/interleaved/far_fields",
     "kernels/interleaved/mixture",
     "kernels/interleaved/near",
+    "kernels/interleaved/packing",
     "kernels/interleaved/receiver",
     "kernels/interleaved/ring",
     "kernels/interleaved/rows",
+    "kernels/interleaved/square",
     "kernels/interleaved/tile_memory",
     "kernels/interleaved/window",
     "kernels/probe",
@@ -134,6 +140,7 @@ pub const LIGHT: &[Module] = modules![
 /// `passes/single_stage_compute`, and their `passes/<kernel>` says what those gather by. The parts of two kernels bear
 /// the same names.
 pub const PASSES: &[Module] = modules![
+    "passes/classify_compute",
     "passes/composite",
     "passes/dense",
     "passes/distance",

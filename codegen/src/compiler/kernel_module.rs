@@ -117,11 +117,15 @@ fn pass_files(estimator: Estimator, wanted: Wanted<'_>) -> Vec<Module> {
     let stem = estimator.stem();
     let mut stems = vec!["subsurface", "subsurface_fragment", stem];
     let compute = format!("{stem}_compute");
-    if estimator.has_two_stages() {
-        stems.extend(["subsurface_compute", &compute]);
-    } else {
-        stems.extend(["single_stage", "subsurface_compute", "single_stage_compute"]);
+    if !estimator.has_two_stages() {
+        stems.push("single_stage");
     }
+    stems.push("subsurface_compute");
+    // A kernel that packs pixels does so as it classifies them.
+    if !estimator.packs_pixels() {
+        stems.push("classify_compute");
+    }
+    stems.push(if estimator.has_two_stages() { &compute } else { "single_stage_compute" });
     if wanted.debug_views {
         stems.push("subsurface_debug");
     }

@@ -2,6 +2,8 @@
 
 use std::f64::consts::TAU;
 
+use subsurface_kernel::constants::GOLDEN_TURN;
+
 use crate::angle::turned;
 use crate::gather::gathered::{Gathered, Rgb, mixed};
 use crate::gather::point::Point;
@@ -24,7 +26,7 @@ impl<'a> ImportanceSampled<'a> {
         let taps = (0..count).map(|tap| {
             let u = (f64::from(tap) + 0.5) / f64::from(count);
             let here = direction;
-            direction = turned(direction);
+            direction = turned(direction, GOLDEN_TURN);
             Tap::new(&point, point.quantile(u), here)
         });
         Self { point, taps: taps.collect() }

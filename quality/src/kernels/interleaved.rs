@@ -2,21 +2,24 @@
 
 mod agreement;
 mod block;
-mod far;
+mod block_ring;
+pub(crate) mod far;
 mod near;
 mod ring;
+mod square;
 mod window;
 
-use subsurface_kernel::constants::{BLOCK_SIDE, PIXELS_OF_BLOCK};
+use subsurface_kernel::constants::{BLOCK_SIDE, LEAST_WINDOW};
 
 use crate::gather::gathered::{Gathered, Rgb};
 use crate::gather::point::Point;
 use crate::pictures::patch::{PATCH_SIDE, Patch};
 use crate::pictures::scene::Scene;
 
-use agreement::depth_agreement;
+use agreement::remote_agreement;
 use block::Block;
-use far::Lattice;
+use block_ring::BlockRing;
+use far::{Lattice, far_taps};
 use near::NearField;
 use ring::ring_light;
 use window::window_shares;
@@ -26,6 +29,7 @@ use window::window_shares;
 pub(crate) struct Interleaved<'a> {
     point: Point<'a>,
     near: NearField,
+    block_ring: BlockRing,
     /// Shares of the window, on the farther side first.
     window: [f64; 3],
     /// `None` where the footprint is too small for any tap.
@@ -35,9 +39,10 @@ pub(crate) struct Interleaved<'a> {
 impl<'a> Interleaved<'a> {
     pub(crate) fn new(point: Point<'a>, taps: u32) -> Self {
         let window = window_shares(taps);
-        let taps = point.footprint_taps(taps * PIXELS_OF_BLOCK);
+        let taps = point.footprint_taps(far_taps(taps));
         let lattice = (taps > 0).then(|| Lattice::new(&point, taps));
-        Self { near: NearField::new(&point), point, window, lattice }
+        let block_ring = BlockRing::new(&point);
+        Self { near: NearField::new(&point), block_ring, point, window, lattice }
     }
 
     /// The pixels of a patch.
@@ -53,7 +58,7 @@ impl<'a> Interleaved<'a> {
         let width = last[0] - first[0] + 1;
         let blocks: Vec<Block> = (first[1]..=last[1])
             .flat_map(|y| (first[0]..=last[0]).map(move |x| [x, y]))
-            .map(|block| Block::gather(lattice, &self.point, scene, patch, block))
+            .map(|block| Block::gather(lattice, &self.block_ring, &self.point, scene, patch, block))
             .collect();
         let block_at = |[x, y]: [i32; 2]| &blocks[((y - first[1]) * width + x - first[0]) as usize];
         patch.pixels().map(|pixel| self.pixel(scene, patch, pixel, &block_at)).collect()
@@ -85,11 +90,9 @@ impl<'a> Interleaved<'a> {
             return own;
         }
         let mut gathered = Gathered::default();
-        gathered.add_share(&mixed, 1.0 / agreement);
+        gathered.add_share(&mixed, 1.0 / agreement.max(LEAST_WINDOW));
         gathered.add(self.near.centre, own);
-        if self.agreement(block_at(home).depth - depth) > 0.0 {
-            gathered.add_share(&ring_light(&self.near, &self.point, scene, [x, y]), 1.0);
-        }
+        gathered.add_share(&ring_light(&self.near, &self.point, scene, [x, y]), 1.0);
         gathered.diffused(own, self.point.returned)
     }
 
@@ -101,6 +104,6 @@ impl<'a> Interleaved<'a> {
 
     /// Share of a far field that counts `apart` pixels of depth away.
     fn agreement(&self, apart: f64) -> f64 {
-        depth_agreement(self.point.depth_pixels(apart))
+        remote_agreement(self.point.depth_pixels(apart) * self.block_ring.depth_factor)
     }
 }

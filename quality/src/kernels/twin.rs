@@ -1,12 +1,13 @@
 //! A kernel at a footprint, whichever it is.
 
 use subsurface_kernel::Estimator;
-use subsurface_kernel::constants::{EVEN_WINDOW_TAPS, PIXELS_OF_BLOCK};
+use subsurface_kernel::constants::EVEN_WINDOW_TAPS;
 
 use crate::gather::gathered::Rgb;
 use crate::gather::point::Point;
 use crate::kernels::importance_sampled::ImportanceSampled;
 use crate::kernels::interleaved::Interleaved;
+use crate::kernels::interleaved::far::far_taps;
 use crate::kernels::separable::Separable;
 use crate::pictures::patch::Patch;
 use crate::pictures::scene::Scene;
@@ -43,10 +44,10 @@ impl<'a> Twin<'a> {
             }
             // Its window narrows with the taps that are asked for, however many the footprint takes.
             Estimator::Interleaved { taps } if f64::from(taps) > EVEN_WINDOW_TAPS => {
-                Estimator::Interleaved { taps: taps * PIXELS_OF_BLOCK }
+                Estimator::Interleaved { taps: far_taps(taps) }
             }
             Estimator::Interleaved { taps } => {
-                Estimator::Interleaved { taps: point.footprint_taps(taps * PIXELS_OF_BLOCK) }
+                Estimator::Interleaved { taps: point.footprint_taps(far_taps(taps)) }
             }
             Estimator::Dense => Estimator::Dense,
         }

@@ -64,6 +64,12 @@ impl Patch {
         (0..PATCH_SIDE * PATCH_SIDE).map(move |place| [x + place % PATCH_SIDE, y + place / PATCH_SIDE])
     }
 
+    /// First pixel in the scene of the square of the screen that is `side` pixels wide and holds a pixel of the scene.
+    pub(crate) fn square_around(self, [x, y]: [i32; 2], side: i32) -> [i32; 2] {
+        let first = [x + self.origin[0], y + self.origin[1]].map(|place| place.div_euclid(side) * side);
+        self.in_scene(first)
+    }
+
     /// Where a pixel of the screen is in the scene.
     pub(crate) fn in_scene(self, [x, y]: [i32; 2]) -> [i32; 2] {
         [x - self.origin[0], y - self.origin[1]]

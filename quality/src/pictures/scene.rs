@@ -50,6 +50,24 @@ impl Scene {
         }
     }
 
+    /// Mean irradiance of a square of pixels, from its first one on.
+    pub(crate) fn light_of_square(self, [x, y]: [i32; 2], side: i32) -> f64 {
+        let columns = f64::from(side);
+        match self {
+            Self::StepEdge | Self::Crease => f64::from((x + side).clamp(0, side)) / columns,
+            Self::Line => f64::from(u8::from((x..x + side).contains(&0))) / columns,
+            Self::Disc { .. } => {
+                let pixels = (0..side * side).map(|place| self.light(x + place % side, y + place / side));
+                pixels.sum::<f64>() / (columns * columns)
+            }
+        }
+    }
+
+    /// Mean distance of the pixels of a square whose first column is `x`, as of `depth`.
+    pub(crate) fn depth_of_square(self, x: i32, side: i32) -> f64 {
+        (x..x + side).map(|x| self.depth(x)).sum::<f64>() / f64::from(side)
+    }
+
     /// Whether all rows are alike.
     pub(crate) fn has_equal_rows(self) -> bool {
         !matches!(self, Self::Disc { .. })

@@ -1,6 +1,6 @@
-// uses: gather/{curve, gathered, packed_pixel, point, tap}, kernel/constants, lib/angle, the material set
+// uses: gather/{curve, gathered, point, tap}, kernel/constants, kernels/interleaved/coarse, lib/angle, the material set
 
-// The light from beyond the ring of a pixel's neighbours: sampled.
+// The light from beyond the ring of blocks: sampled.
 
 /// The golden ratio's fraction, turns: from one frame to the next.
 const GOLDEN_FRACTION: f32 = 0.61803399;
@@ -10,12 +10,26 @@ fn lattice_slice(block: vec2i) -> f32 {
     return f32((block.x & 1) + 2 * ((block.x + block.y) & 1));
 }
 
-/// Light that enters `point`, the middle of a block, from beyond the disc of nine pixels, as packed `pixels` have it.
+/// Taps of a block for its far field, where a pixel has a budget of `taps`: the blocks around cost as much as
+/// RING_TAPS do, and stand for as many.
+fn far_taps(taps: u32) -> u32 {
+    return u32(BLOCK_SIDE * BLOCK_SIDE) * taps - min(taps, RING_TAPS);
+}
+
+/// Level of the squares that taps read: as wide as the lattice's period where its taps lie that far apart, so that a
+/// small light counts the same wherever it lies; else blocks.
+fn far_level(point: SurfacePoint, taps: u32) -> u32 {
+    let radius = min(point.filter_radius_pixels, LARGEST_FILTER_RADIUS);
+    let is_sparse = radius * radius >= SPARSE_TAP_AREA * f32(LATTICE_SLICES * taps);
+    return select(BLOCK_LEVEL, COARSE_LEVEL, is_sparse);
+}
+
+/// Light that enters `point`, the middle of a block, from beyond the disc of 36 pixels.
 ///
 /// Slices differ by a quarter of a stratum in radius and by a quarter turn; frames by the golden ratio's part of a
 /// turn.
 fn gather_far_field(
-    pixels: texture_2d<u32>,
+    coarse: texture_2d<u32>,
     point: SurfacePoint,
     taps: u32,
     slice: f32,
@@ -27,15 +41,16 @@ fn gather_far_field(
         return gathered;
     }
     let u_range = FAR_QUANTILE - u_inner;
+    let level = far_level(point, taps);
     let start = TAU * fract(slice / f32(LATTICE_SLICES) + GOLDEN_FRACTION * f32(frame % 64u));
     var direction = vec2f(cos(start), sin(start));
     for (var tap = 0u; tap < taps; tap += 1u) {
         let stratum = (f32(tap) + (slice + 0.5) / f32(LATTICE_SLICES)) / f32(taps);
         let quantile = FAR_STRETCH * curve_quantile(point.widest.curve, u_inner + stratum * u_range);
         let position = tap_position(point, quantile.x, direction);
-        let pixel = unpack_pixel(load_packed_pixel(pixels, position));
+        let pixel = coarse_pixel(coarse, level, position);
         gathered = together(gathered, light_of_tap(point, quantile, position, pixel));
-        direction = turned(direction, GOLDEN_TURN);
+        direction = turned(direction, LATTICE_TURN);
     }
     let share = u_range / f32(taps);
     return Gathered(share * gathered.irradiance, share * gathered.weight);

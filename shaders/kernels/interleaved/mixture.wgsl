@@ -4,32 +4,31 @@
 struct Mixture {
     /// Their light.
     far: Gathered,
-    /// Share of the light that leaves the centre.
-    leaving: vec3f,
     /// The part of the window that agrees with the pixel.
     window: f32,
 }
 
 /// The mixture of no far field.
 fn empty_mixture() -> Mixture {
-    return Mixture(Gathered(vec3f(0.0), vec3f(0.0)), vec3f(0.0), 0.0);
+    return Mixture(Gathered(vec3f(0.0), vec3f(0.0)), 0.0);
 }
 
-/// Share of a far field that a pixel may take: 1 for one of its own surface, 0 for another's.
+/// Whether a pixel may take the far field of a block at `surface`.
+fn accepts_far_field(at: Receiver, surface: InputSurface) -> bool {
+    return select(surface.material != NO_MATERIAL, surface.material == at.surface.material, REJECT_BY_MATERIAL);
+}
+
+/// Share of a far field that a pixel may take: 1 for one of its own surface, 0 for another material's.
 fn far_field_agreement(at: Receiver, field: FarField) -> f32 {
-    let is_other = REJECT_BY_MATERIAL && field.surface.material != at.surface.material;
-    if field.surface.material == NO_MATERIAL || is_other {
-        return 0.0;
-    }
-    return depth_agreement(apart_in_depth(at.depth_scale, field.surface.distance_mm, at.surface.distance_mm));
+    let apart = at.depth_scale * field.depth_factor * (field.surface.distance_mm - at.surface.distance_mm);
+    return select(0.0, remote_agreement(apart), accepts_far_field(at, field.surface));
 }
 
 /// `mixture` with the part `share` of a field, as far as it agrees with the pixel.
 fn with_field(mixture: Mixture, at: Receiver, field: FarField, share: f32) -> Mixture {
     let agreed = share * far_field_agreement(at, field);
     let far = Gathered(agreed * field.light.irradiance, agreed * field.light.weight);
-    let leaving = mixture.leaving + agreed * field.leaving;
-    return Mixture(together(mixture.far, far), leaving, mixture.window + agreed);
+    return Mixture(together(mixture.far, far), mixture.window + agreed);
 }
 
 /// `mixture` with three fields that lie side by side.

@@ -1,4 +1,4 @@
-// uses: gather/{input, packed_pixel}, kernel/constants, kernels/interleaved, kernels/interleaved/{far_fields, receiver, ring}; needs: diffused_target, irradiance_at, pixel_source, subsurface_view, texture_position
+// uses: gather/{input, packed_pixel}, kernel/constants, kernels/interleaved, kernels/interleaved/{far_fields, near, receiver, ring}; needs: diffused_target, irradiance_at, pixel_source, subsurface_view, texture_position
 
 // Rows of four pixels: what an invocation of the compute path loads once for the rings of a block's four pixels.
 
@@ -56,8 +56,7 @@ fn store_diffused(
     own: vec2u,
     fields: FarFields,
     ring: Ring,
-    beside: vec3f,
-    across: vec3f,
+    shares: PixelShares,
 ) {
     let surface = unpack_surface(own.y);
     if surface.material == NO_MATERIAL {
@@ -66,6 +65,6 @@ fn store_diffused(
     let pixel = BLOCK_SIDE * home + (side + 1) / 2;
     let texel = irradiance_at(pixel);
     let at = receiver_at(pixel, surface, texel);
-    let diffused = diffuse_interleaved(at, side, subsurface_view.taps, fields, ring, beside, across);
+    let diffused = diffuse_interleaved(at, side, subsurface_view.taps, fields, ring, shares);
     textureStore(diffused_target, texture_position(pixel), vec4f(diffused, texel.a));
 }

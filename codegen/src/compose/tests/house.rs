@@ -40,8 +40,10 @@ fn is_of(estimator: Estimator, file: &Module) -> bool {
     let is_others = others
         .into_iter()
         .any(|stem| file.name == format!("passes/{stem}") || file.name == format!("passes/{stem}_compute"));
+    // A kernel that packs pixels does so as it classifies them.
+    let is_of_no_packing = estimator.packs_pixels() && file.name == "passes/classify_compute";
     let is_of_one_stage = estimator.has_two_stages() && single.contains(&file.name);
-    !(is_others || is_of_one_stage || OWN_MODULES.contains(&file.name))
+    !(is_others || is_of_no_packing || is_of_one_stage || OWN_MODULES.contains(&file.name))
 }
 
 /// Checks every file, not only what passes reach.

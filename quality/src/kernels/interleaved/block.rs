@@ -7,6 +7,7 @@ use crate::gather::point::Point;
 use crate::pictures::patch::Patch;
 use crate::pictures::scene::Scene;
 
+use super::block_ring::BlockRing;
 use super::far::{Lattice, lattice_slice};
 
 /// A block as its pixels read it.
@@ -21,6 +22,7 @@ impl Block {
     /// The block `block` of the screen.
     pub(crate) fn gather(
         lattice: &Lattice,
+        ring: &BlockRing,
         point: &Point<'_>,
         scene: Scene,
         patch: Patch,
@@ -30,8 +32,9 @@ impl Block {
         let position = first.map(|place| f64::from(place) + 0.5);
         let depth = 0.5 * (scene.depth(first[0]) + scene.depth(first[0] + 1));
         let mut far = Gathered::default();
-        let gathered = lattice.gather(point, scene, lattice_slice(block), position, depth);
-        far.add_share(&gathered, point.blend());
+        let sampled = lattice.gather(point, scene, patch, lattice_slice(block), position, depth);
+        far.add_share(&sampled, point.blend());
+        far.add_share(&ring.gather(point, scene, patch, first, depth), point.blend());
         Self { far, depth }
     }
 }

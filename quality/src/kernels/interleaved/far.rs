@@ -1,14 +1,20 @@
-//! Twin of `shaders/kernels/interleaved/far.wgsl`: what a block gathers from beyond the ring.
+//! Twin of `shaders/kernels/interleaved/far.wgsl`: what a block gathers from beyond the blocks around it.
 
 use std::f64::consts::TAU;
 
-use subsurface_kernel::constants::{FAR_QUANTILE, FAR_RADIUS_PIXELS, FAR_STRETCH, LATTICE_SLICES};
+use subsurface_kernel::constants::{
+    BLOCK_SIDE, FAR_QUANTILE, FAR_RADIUS_PIXELS, FAR_STRETCH, LARGEST_FILTER_RADIUS, LATTICE_SLICES,
+    LATTICE_TURN, PIXELS_OF_BLOCK, RING_TAPS, SPARSE_TAP_AREA,
+};
 
 use crate::angle::turned;
 use crate::gather::gathered::Gathered;
 use crate::gather::point::Point;
 use crate::gather::tap::{Tap, pixel_at};
+use crate::pictures::patch::Patch;
 use crate::pictures::scene::Scene;
+
+use super::square::Square;
 
 /// The taps of all slices of the lattice.
 #[derive(Debug)]
@@ -16,6 +22,13 @@ pub(crate) struct Lattice {
     slices: Vec<Vec<Tap>>,
     /// Share of the light that a tap stands for.
     share: f64,
+    /// Side of the squares that taps read, pixels.
+    side: i32,
+}
+
+/// Taps of a block for its far field, where a pixel has a budget of `taps`.
+pub(crate) fn far_taps(taps: u32) -> u32 {
+    PIXELS_OF_BLOCK * taps - taps.min(RING_TAPS)
 }
 
 impl Lattice {
@@ -24,7 +37,7 @@ impl Lattice {
         let widest = &point.optics.channels[point.optics.widest];
         let u_inner = widest.profile.radial_cdf(FAR_RADIUS_PIXELS * point.pixel / FAR_STRETCH);
         if taps == 0 || u_inner >= FAR_QUANTILE {
-            return Self { slices: vec![Vec::new(); LATTICE_SLICES as usize], share: 0.0 };
+            return Self { slices: vec![Vec::new(); LATTICE_SLICES as usize], share: 0.0, side: BLOCK_SIDE };
         }
         let u_range = FAR_QUANTILE - u_inner;
         let slice = |slice: usize| {
@@ -35,12 +48,18 @@ impl Lattice {
                 let stratum = (f64::from(tap) + within) / f64::from(taps);
                 let (radius, slope) = point.quantile(u_inner + stratum * u_range);
                 let here = direction;
-                direction = turned(direction);
+                direction = turned(direction, LATTICE_TURN);
                 Tap::new(point, (FAR_STRETCH * radius, FAR_STRETCH * slope), here)
             });
             taps.collect()
         };
-        Self { slices: (0..LATTICE_SLICES as usize).map(slice).collect(), share: u_range / f64::from(taps) }
+        let radius = point.filter_radius_pixels.min(LARGEST_FILTER_RADIUS);
+        let is_sparse = radius * radius >= SPARSE_TAP_AREA * f64::from(LATTICE_SLICES * taps);
+        Self {
+            slices: (0..LATTICE_SLICES as usize).map(slice).collect(),
+            share: u_range / f64::from(taps),
+            side: if is_sparse { 2 * BLOCK_SIDE } else { BLOCK_SIDE },
+        }
     }
 
     /// The far field of a block whose middle is at `position` of the scene, `depth` pixels away.
@@ -48,15 +67,16 @@ impl Lattice {
         &self,
         point: &Point<'_>,
         scene: Scene,
+        patch: Patch,
         slice: usize,
         position: [f64; 2],
         depth: f64,
     ) -> Gathered {
         let mut gathered = Gathered::default();
         for tap in &self.slices[slice] {
-            let [x, y] = pixel_at(position, tap.offset);
-            let apart = point.depth_pixels(scene.depth(x) - depth);
-            gathered.add(tap.weight(point, apart), [scene.light(x, y); 3]);
+            let square = Square::around(scene, patch, pixel_at(position, tap.offset), self.side);
+            let apart = point.depth_pixels(square.depth - depth);
+            gathered.add(tap.weight(point, apart), [square.light; 3]);
         }
         let mut far = Gathered::default();
         far.add_share(&gathered, self.share);

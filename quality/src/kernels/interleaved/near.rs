@@ -1,6 +1,8 @@
 //! Twin of `shaders/kernels/interleaved/near.wgsl`: the shares of a pixel and its eight neighbours.
 
-use subsurface_kernel::constants::{FAR_RADIUS_PIXELS, HALF_LOG_3_OF_2, NEAR_RADIUS_PIXELS, SMALLEST_WEIGHT};
+use subsurface_kernel::constants::{
+    HALF_LOG_3_OF_2, NEAR_RADIUS_PIXELS, RING_RADIUS_PIXELS, SMALLEST_WEIGHT,
+};
 
 use crate::gather::gathered::Rgb;
 use crate::gather::point::Point;
@@ -19,16 +21,18 @@ pub(crate) struct NearField {
 impl NearField {
     pub(crate) fn new(point: &Point<'_>) -> Self {
         let centre = point.radial_cdf(NEAR_RADIUS_PIXELS * point.pixel);
-        let inside = point.radial_cdf(FAR_RADIUS_PIXELS * point.pixel);
+        let inside = point.radial_cdf(RING_RADIUS_PIXELS * point.pixel);
         let blend = point.blend();
         let mut shares = Self { centre: [0.0; 3], beside: [0.0; 3], across: [0.0; 3] };
         for channel in 0..3 {
-            let growth = inside[channel] / centre[channel].max(SMALLEST_WEIGHT);
+            let own = 1.0 + blend * (centre[channel] - 1.0);
+            let ring = blend * (inside[channel] - centre[channel]);
+            let growth = (own + ring) / own.max(SMALLEST_WEIGHT);
             let across = 0.5 * growth.powf(HALF_LOG_3_OF_2);
-            let beside = (inside[channel] - centre[channel]) / (4.0 + 4.0 * across);
-            shares.centre[channel] = 1.0 + blend * (centre[channel] - 1.0);
-            shares.beside[channel] = blend * beside;
-            shares.across[channel] = blend * beside * across;
+            let beside = ring / (4.0 + 4.0 * across);
+            shares.centre[channel] = own;
+            shares.beside[channel] = beside;
+            shares.across[channel] = beside * across;
         }
         shares
     }

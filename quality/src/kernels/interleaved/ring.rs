@@ -8,8 +8,8 @@ use super::agreement::depth_agreement;
 use super::near::NearField;
 
 /// The neighbours beside a pixel, and across its corners.
-const BESIDE: [[i32; 2]; 4] = [[-1, 0], [1, 0], [0, -1], [0, 1]];
-const ACROSS: [[i32; 2]; 4] = [[-1, -1], [1, -1], [-1, 1], [1, 1]];
+pub(crate) const BESIDE: [[i32; 2]; 4] = [[-1, 0], [1, 0], [0, -1], [0, 1]];
+pub(crate) const ACROSS: [[i32; 2]; 4] = [[-1, -1], [1, -1], [-1, 1], [1, 1]];
 
 /// Light of the ring around a pixel of the scene.
 pub(crate) fn ring_light(near: &NearField, point: &Point<'_>, scene: Scene, [x, y]: [i32; 2]) -> Gathered {

@@ -12,10 +12,10 @@ use crate::pass::PassError;
 use crate::target::Target;
 use crate::texture_format::{output_format, texture_format};
 use crate::wgpu::{self, util::DeviceExt as _};
-use subsurface_kernel::{ComputeShape, Estimator, OutputFormat, needs_zeroed_workgroup_memory};
+use subsurface_kernel::{ComputeShape, Estimator, OutputFormat};
 
 use super::descriptor::Settings;
-use super::intermediate::{Intermediate, intermediates, packed_pixels};
+use super::intermediate::{Intermediate, coarse_pixels, first_stage, packed_pixels};
 
 /// Outputs whose bind groups are kept: frames in flight rarely write to more.
 const OUTPUTS_KEPT: usize = 4;
@@ -54,8 +54,9 @@ pub(super) struct ComputeFrame {
 struct Resources {
     device: wgpu::Device,
     layout: wgpu::BindGroupLayout,
-    intermediates: Vec<Target>,
+    first: Option<Target>,
     pixels: Target,
+    coarse: Target,
     // A texture that is written may not be read in the same dispatch, so what is left unused has its own.
     nothing: Target,
     unused_four_words: Target,
@@ -101,7 +102,8 @@ impl ComputePath {
                 entry_point: Some(entry_point),
                 compilation_options: wgpu::PipelineCompilationOptions {
                     constants: settings.constants(),
-                    zero_initialize_workgroup_memory: needs_zeroed_workgroup_memory(entry_point),
+                    // The stages write what they read.
+                    zero_initialize_workgroup_memory: false,
                 },
                 cache: settings.pipeline_cache.as_ref(),
             })
@@ -137,10 +139,8 @@ impl ComputePath {
     pub(super) fn frame(&self, device: &wgpu::Device, settings: &Settings, size: Extent) -> ComputeFrame {
         let usage = wgpu::TextureUsages::STORAGE_BINDING;
         let label = &settings.label;
-        let intermediates = intermediates(self.estimator);
-        let intermediates =
-            intermediates.iter().map(|texture| texture.target(device, label, size, usage)).collect();
-        let unused = |format, name| Intermediate::single(format, name).target(device, label, size, usage);
+        let target = |texture: Intermediate| texture.target(device, label, size, usage);
+        let unused = |format, name| target(Intermediate::single(format, name));
         let (tile_columns, tile_rows) = (size.width.div_ceil(TILE_SIDE), size.height.div_ceil(TILE_SIDE));
         let buffer = |name, words: u32, usage| {
             device.create_buffer(&wgpu::BufferDescriptor {
@@ -154,8 +154,9 @@ impl ComputePath {
         let resources = Resources {
             device: device.clone(),
             layout: self.layout.clone(),
-            intermediates,
-            pixels: packed_pixels(self.estimator).target(device, label, size, usage),
+            first: first_stage(self.estimator).map(target),
+            pixels: target(packed_pixels(self.estimator)),
+            coarse: target(coarse_pixels(self.estimator)),
             nothing: unused(wgpu::TextureFormat::Rg32Uint, "nothing"),
             unused_four_words: unused(wgpu::TextureFormat::Rgba32Uint, "unused four words"),
             unused_two_words: unused(wgpu::TextureFormat::Rg32Uint, "unused two words"),
@@ -225,13 +226,13 @@ impl Resources {
     }
 
     fn groups(&self, output: &wgpu::TextureView) -> OutputGroups {
-        let find = |format| self.intermediates.iter().find(|target| target.texture.format() == format);
-        let four_words = find(wgpu::TextureFormat::Rgba32Uint).unwrap_or(&self.unused_four_words);
-        let two_words = find(wgpu::TextureFormat::Rg32Uint).unwrap_or(&self.unused_two_words);
+        let of_format = |format| self.first.as_ref().filter(|target| target.texture.format() == format);
+        let four_words = of_format(wgpu::TextureFormat::Rgba32Uint).unwrap_or(&self.unused_four_words);
+        let two_words = of_format(wgpu::TextureFormat::Rg32Uint).unwrap_or(&self.unused_two_words);
         let group = |read: [&Target; 3], written: [&Target; 3], arguments: &wgpu::Buffer, label: &str| {
             SubsurfaceComputeBindGroup2 {
                 intermediate_source: &read[0].view,
-                second_intermediate_source: &read[1].view,
+                coarse_source: &read[1].view,
                 pixel_source: &read[2].view,
                 four_word_target: &written[0].view,
                 two_word_target: &written[1].view,
@@ -243,24 +244,23 @@ impl Resources {
             .create(&self.device, &self.layout, label)
         };
         let nothing = &self.nothing;
-        let at = |index: usize| self.intermediates.get(index).unwrap_or(nothing);
         let [classify, first, second] = &self.labels;
         OutputGroups {
             output: output.clone(),
             classify: group(
                 [nothing; 3],
-                [four_words, &self.unused_two_words, &self.pixels],
+                [&self.unused_four_words, &self.coarse, &self.pixels],
                 &self.dispatch,
                 classify,
             ),
             first: group(
-                [nothing, nothing, &self.pixels],
+                [nothing, &self.coarse, &self.pixels],
                 [four_words, two_words, &self.unused_pixels],
                 &self.unused_dispatch,
                 first,
             ),
             second: group(
-                [at(0), at(1), &self.pixels],
+                [self.first.as_ref().unwrap_or(nothing), &self.coarse, &self.pixels],
                 [&self.unused_four_words, &self.unused_two_words, &self.unused_pixels],
                 &self.unused_dispatch,
                 second,

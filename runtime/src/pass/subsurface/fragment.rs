@@ -1,8 +1,8 @@
 //! The fragment path.
 
 use crate::bindings::kernel::{
-    BindGroup1, ENTRY_FIRST_FRAGMENT, ENTRY_PACK_FRAGMENT, ENTRY_PASSTHROUGH_FRAGMENT,
-    ENTRY_SUBSURFACE_FRAGMENT, ENTRY_SUBSURFACE_VERTEX, SubsurfaceFragmentBindGroup2,
+    BindGroup1, ENTRY_BLOCK_FRAGMENT, ENTRY_FIRST_FRAGMENT, ENTRY_PACK_FRAGMENT, ENTRY_PASSTHROUGH_FRAGMENT,
+    ENTRY_SQUARE_FRAGMENT, ENTRY_SUBSURFACE_FRAGMENT, ENTRY_SUBSURFACE_VERTEX, SubsurfaceFragmentBindGroup2,
 };
 use crate::extent::Extent;
 use crate::gbuffer::TRANSLUCENT_STENCIL;
@@ -15,19 +15,22 @@ use crate::wgpu;
 use subsurface_kernel::Estimator;
 
 use super::descriptor::Settings;
-use super::intermediate::{Intermediate, intermediates, packed_pixels};
+use super::intermediate::{Intermediate, coarse_parts, coarse_pixels, first_stage, packed_pixels};
 
 /// Pipelines.
 #[derive(Debug)]
 pub(super) struct FragmentPath {
     estimator: Estimator,
     pack: Option<wgpu::RenderPipeline>,
+    /// Packs blocks, and squares of them.
+    coarse: Option<[wgpu::RenderPipeline; 2]>,
     first: Option<wgpu::RenderPipeline>,
     diffuse: wgpu::RenderPipeline,
     /// Copies what the stencil leaves out; without a stencil the one pipeline does both.
     passthrough: Option<wgpu::RenderPipeline>,
     layout: wgpu::BindGroupLayout,
     pack_label: String,
+    coarse_label: String,
     first_label: String,
 }
 
@@ -35,10 +38,14 @@ pub(super) struct FragmentPath {
 #[derive(Debug)]
 pub(super) struct FragmentFrame {
     pixels: Target,
-    intermediates: Vec<Target>,
+    coarse: Target,
+    coarse_parts: [Viewport; 2],
+    first: Target,
     /// Bound while pixels are packed.
     pack_group: wgpu::BindGroup,
-    /// Bound while the first stage writes the intermediates.
+    /// Bound while squares are packed.
+    coarse_group: wgpu::BindGroup,
+    /// Bound while the first stage writes its result.
     first_group: wgpu::BindGroup,
     second_group: wgpu::BindGroup,
 }
@@ -69,21 +76,32 @@ impl FragmentPath {
         };
         let stencil = |compare| settings.stencil.map(|format| read_only_stencil(format, compare));
         let estimator = kernel.estimator();
-        let pack = estimator
-            .packs_pixels()
-            .then(|| pipeline("packing", ENTRY_PACK_FRAGMENT, &[packed_pixels(estimator).format], None));
-        let first = estimator.has_two_stages().then(|| {
-            let formats: Vec<_> = intermediates(estimator).iter().map(|texture| texture.format).collect();
-            pipeline("first stage", ENTRY_FIRST_FRAGMENT, &formats, None)
+        let stage = |name, entry, texture: Intermediate| pipeline(name, entry, &[texture.format], None);
+        let packs = estimator.packs_pixels();
+        let pack = packs.then(|| stage("packing", ENTRY_PACK_FRAGMENT, packed_pixels(estimator)));
+        let coarse = packs.then(|| {
+            [("block packing", ENTRY_BLOCK_FRAGMENT), ("square packing", ENTRY_SQUARE_FRAGMENT)]
+                .map(|(name, entry)| stage(name, entry, coarse_pixels(estimator)))
         });
+        let first = first_stage(estimator).map(|first| stage("first stage", ENTRY_FIRST_FRAGMENT, first));
         let output = &[settings.format];
         let equal = stencil(wgpu::CompareFunction::Equal);
         let diffuse = pipeline("pipeline", ENTRY_SUBSURFACE_FRAGMENT, output, equal);
         let passthrough = stencil(wgpu::CompareFunction::NotEqual).map(|not_equal| {
             pipeline("passthrough pipeline", ENTRY_PASSTHROUGH_FRAGMENT, output, Some(not_equal))
         });
-        let (pack_label, first_label) = (label.of("packing"), label.of("first stage"));
-        Self { estimator, pack, first, diffuse, passthrough, layout, pack_label, first_label }
+        Self {
+            estimator,
+            pack,
+            coarse,
+            first,
+            diffuse,
+            passthrough,
+            layout,
+            pack_label: label.of("packing"),
+            coarse_label: label.of("coarse packing"),
+            first_label: label.of("first stage"),
+        }
     }
 
     /// Targets between the stages for viewports of `size`.
@@ -91,22 +109,34 @@ impl FragmentPath {
         let usage = wgpu::TextureUsages::RENDER_ATTACHMENT;
         let label = &settings.label;
         let target = |texture: &Intermediate| texture.target(device, label, size, usage);
-        let intermediates: Vec<_> = intermediates(self.estimator).iter().map(target).collect();
+        let nothing = Intermediate::single(wgpu::TextureFormat::Rg32Uint, "nothing");
+        let first = target(&first_stage(self.estimator).unwrap_or(nothing));
         let pixels = target(&packed_pixels(self.estimator));
-        let nothing = target(&Intermediate::single(wgpu::TextureFormat::Rg32Uint, "nothing"));
+        let coarse = target(&coarse_pixels(self.estimator));
+        let nothing = target(&nothing);
         let group = |read: [&Target; 3], name| {
             SubsurfaceFragmentBindGroup2 {
                 intermediate_texture: &read[0].view,
-                second_intermediate_texture: &read[1].view,
+                coarse_texture: &read[1].view,
                 pixel_texture: &read[2].view,
             }
             .create(device, &self.layout, &label.of(name))
         };
         let pack_group = group([&nothing; 3], "packing bind group");
-        let first_group = group([&nothing, &nothing, &pixels], "first stage bind group");
-        let at = |index: usize| intermediates.get(index).unwrap_or(&nothing);
-        let second_group = group([at(0), at(1), &pixels], "stage bind group");
-        FragmentFrame { pixels, intermediates, pack_group, first_group, second_group }
+        let coarse_group = group([&nothing, &nothing, &pixels], "coarse packing bind group");
+        let first_group = group([&nothing, &coarse, &pixels], "first stage bind group");
+        let second_group = group([&first, &coarse, &pixels], "stage bind group");
+        let coarse_parts = coarse_parts(size);
+        FragmentFrame {
+            pixels,
+            coarse,
+            coarse_parts,
+            first,
+            pack_group,
+            coarse_group,
+            first_group,
+            second_group,
+        }
     }
 
     pub(super) fn encode(
@@ -123,29 +153,33 @@ impl FragmentPath {
             let is_first = std::mem::replace(&mut is_first, false);
             timestamps.and_then(|timestamps| timestamps.of_render_pass(is_first, is_last))
         };
+        let mut begin = |encoder: &mut wgpu::CommandEncoder, label, target: &Target, group| {
+            let mut pass = encoder
+                .begin_render_pass(&wgpu::RenderPassDescriptor {
+                    label: Some(label),
+                    color_attachments: &[cleared(&target.view, wgpu::Color::TRANSPARENT)],
+                    timestamp_writes: writes(false),
+                    ..Default::default()
+                })
+                .forget_lifetime();
+            bind(&mut pass, groups, group);
+            pass
+        };
         if let Some(pack) = &self.pack {
-            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-                label: Some(&self.pack_label),
-                color_attachments: &[cleared(&frame.pixels.view, wgpu::Color::TRANSPARENT)],
-                timestamp_writes: writes(false),
-                ..Default::default()
-            });
-            bind(&mut pass, groups, &frame.pack_group);
+            let mut pass = begin(encoder, &self.pack_label, &frame.pixels, &frame.pack_group);
             pass.set_pipeline(pack);
             pass.draw(0..3, 0..1);
         }
-        if let Some(first) = &self.first {
-            let mut attachments = [None, None];
-            for (attachment, target) in attachments.iter_mut().zip(&frame.intermediates) {
-                *attachment = cleared(&target.view, wgpu::Color::TRANSPARENT);
+        if let Some(coarse) = &self.coarse {
+            let mut pass = begin(encoder, &self.coarse_label, &frame.coarse, &frame.coarse_group);
+            for (pipeline, Viewport { x, y, width, height }) in coarse.iter().zip(frame.coarse_parts) {
+                pass.set_pipeline(pipeline);
+                pass.set_scissor_rect(x, y, width, height);
+                pass.draw(0..3, 0..1);
             }
-            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-                label: Some(&self.first_label),
-                color_attachments: &attachments[..frame.intermediates.len()],
-                timestamp_writes: writes(false),
-                ..Default::default()
-            });
-            bind(&mut pass, groups, &frame.first_group);
+        }
+        if let Some(first) = &self.first {
+            let mut pass = begin(encoder, &self.first_label, &frame.first, &frame.first_group);
             pass.set_pipeline(first);
             pass.draw(0..3, 0..1);
         }

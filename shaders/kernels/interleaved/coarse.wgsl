@@ -1,0 +1,75 @@
+// uses: gather/{input, packed_pixel}; needs: is_inside, subsurface_view
+
+// The squares in a texture, packed as pixels are:
+//
+//     ┌───────────────┐
+//     │               │
+//     │  2×2 pixels   │   a texel for each block
+//     │               │
+//     ├───────┬───────┘
+//     │ 4×4   │           a texel for each four of them
+//     └───────┘
+
+/// Squares of 2×2 pixels.
+const BLOCK_LEVEL: u32 = 1u;
+
+/// Squares of 4×4 pixels.
+const COARSE_LEVEL: u32 = 2u;
+
+/// Rows of blocks: below them lie the squares of 4×4 pixels.
+fn block_rows() -> i32 {
+    return (subsurface_view.viewport_extent.y + 1) / 2;
+}
+
+/// Texel of the square of 4×4 pixels at `place`.
+fn coarse_texel(place: vec2i) -> vec2i {
+    return vec2i(place.x, place.y + block_rows());
+}
+
+/// The words of a square.
+fn pack_square(square: InputPixel) -> vec2u {
+    if square.material == NO_MATERIAL {
+        return vec2u(NO_LIGHT, 0u);
+    }
+    return pack_lit_surface(InputSurface(square.distance_mm, square.material), square.irradiance);
+}
+
+/// The words of a block whose pixels make `square`, and whose first translucent one shows `surface`: a block that gives
+/// no light takes some.
+fn pack_block(surface: InputSurface, square: InputPixel) -> vec2u {
+    if square.material != surface.material {
+        return vec2u(NO_LIGHT, pack_surface(surface));
+    }
+    return pack_square(square);
+}
+
+/// The first of four surfaces that has a material, or the last where none has.
+fn first_surface(a: InputSurface, b: InputSurface, c: InputSurface, d: InputSurface) -> InputSurface {
+    if a.material != NO_MATERIAL {
+        return a;
+    }
+    if b.material != NO_MATERIAL {
+        return b;
+    }
+    if c.material != NO_MATERIAL {
+        return c;
+    }
+    return d;
+}
+
+/// The surface of a block; none outside of the target.
+fn block_surface(coarse: texture_2d<u32>, block: vec2i) -> InputSurface {
+    if !is_inside(2 * block) {
+        return InputSurface(0.0, NO_MATERIAL);
+    }
+    return unpack_surface(textureLoad(coarse, block, 0).y);
+}
+
+/// The square of a level around the pixel at `position`; none outside of the target.
+fn coarse_pixel(coarse: texture_2d<u32>, level: u32, position: vec2i) -> InputPixel {
+    let place = position >> vec2u(level);
+    if !is_inside(position) {
+        return InputPixel(vec3f(0.0), 0.0, NO_MATERIAL);
+    }
+    return unpack_pixel(textureLoad(coarse, select(place, coarse_texel(place), level == COARSE_LEVEL), 0).rg);
+}
