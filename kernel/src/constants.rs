@@ -99,8 +99,8 @@ constants! {
     RING_TAPS: U32(u32) = 2;
 
     /// Square of a filter radius, pixels, by taps of the lattice, from which taps read squares of 4×4 pixels: there
-    /// they lie about six pixels apart.
-    SPARSE_TAP_AREA: F32(f64) = 13.0;
+    /// they lie about nine pixels apart.
+    SPARSE_TAP_AREA: F32(f64) = 24.0;
 
     /// cos and sin of the step from tap to tap of a slice: the larger part of a quarter turn in the golden section,
     /// and a quarter turn. Slices repeat each direction after every quarter turn, so it is a quarter turn that is to

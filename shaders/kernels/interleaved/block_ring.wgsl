@@ -46,7 +46,7 @@ fn with_block_ring(
     for (var neighbour = 0; neighbour < 8; neighbour += 1) {
         let apart = ring_place(neighbour);
         let position = BLOCK_SIDE * (block + apart);
-        let pixel = coarse_pixel(coarse, BLOCK_LEVEL, position);
+        let pixel = block_pixel_at(coarse, position);
         if accepts_material(point, pixel.material) {
             let steps = depth_difference_mm(point, pixel.distance_mm) / point.pixel_mm;
             let squared_radius = f32(BLOCK_SIDE * BLOCK_SIDE * dot(apart, apart));

@@ -10,12 +10,6 @@
 //     │ 4×4   │           a texel for each four of them
 //     └───────┘
 
-/// Squares of 2×2 pixels.
-const BLOCK_LEVEL: u32 = 1u;
-
-/// Squares of 4×4 pixels.
-const COARSE_LEVEL: u32 = 2u;
-
 /// Rows of blocks: below them lie the squares of 4×4 pixels.
 fn block_rows() -> i32 {
     return (subsurface_view.viewport_extent.y + 1) / 2;
@@ -34,8 +28,8 @@ fn pack_square(square: InputPixel) -> vec2u {
     return pack_lit_surface(InputSurface(square.distance_mm, square.material), square.irradiance);
 }
 
-/// The words of a block whose pixels make `square`, and whose first translucent one shows `surface`: a block that gives
-/// no light takes some.
+/// The words of a block whose pixels make `square`, and whose first translucent one shows `surface`: a block that
+/// gives no light takes some.
 fn pack_block(surface: InputSurface, square: InputPixel) -> vec2u {
     if square.material != surface.material {
         return vec2u(NO_LIGHT, pack_surface(surface));
@@ -65,11 +59,21 @@ fn block_surface(coarse: texture_2d<u32>, block: vec2i) -> InputSurface {
     return unpack_surface(textureLoad(coarse, block, 0).y);
 }
 
-/// The square of a level around the pixel at `position`; none outside of the target.
-fn coarse_pixel(coarse: texture_2d<u32>, level: u32, position: vec2i) -> InputPixel {
-    let place = position >> vec2u(level);
+/// The square of 2×2 pixels around the pixel at `position`; none outside of the target.
+fn block_pixel_at(coarse: texture_2d<u32>, position: vec2i) -> InputPixel {
     if !is_inside(position) {
         return InputPixel(vec3f(0.0), 0.0, NO_MATERIAL);
     }
-    return unpack_pixel(textureLoad(coarse, select(place, coarse_texel(place), level == COARSE_LEVEL), 0).rg);
+    return unpack_pixel(textureLoad(coarse, position >> vec2u(1u), 0).rg);
+}
+
+/// The square of 4×4 pixels around the pixel at `position` if `is_sparse` and it is whole, else that of 2×2.
+fn coarse_pixel_at(coarse: texture_2d<u32>, is_sparse: bool, position: vec2i) -> InputPixel {
+    if is_sparse && is_inside(position) {
+        let square = unpack_pixel(textureLoad(coarse, coarse_texel(position >> vec2u(2u)), 0).rg);
+        if square.material != NO_MATERIAL {
+            return square;
+        }
+    }
+    return block_pixel_at(coarse, position);
 }

@@ -7,7 +7,7 @@ const GOLDEN_FRACTION: f32 = 0.61803399;
 
 /// Slice of the lattice that a block takes: 0…3, each once in any 2×2 blocks.
 fn lattice_slice(block: vec2i) -> f32 {
-    return f32((block.x & 1) + 2 * ((block.x + block.y) & 1));
+    return f32(((block.x + block.y) & 1) + 2 * (block.y & 1));
 }
 
 /// Taps of a block for its far field, where a pixel has a budget of `taps`: the blocks around cost as much as
@@ -16,18 +16,18 @@ fn far_taps(taps: u32) -> u32 {
     return u32(BLOCK_SIDE * BLOCK_SIDE) * taps - min(taps, RING_TAPS);
 }
 
-/// Level of the squares that taps read: as wide as the lattice's period where its taps lie that far apart, so that a
-/// small light counts the same wherever it lies; else blocks.
-fn far_level(point: SurfacePoint, taps: u32) -> u32 {
+/// Whether taps lie so far apart that they read squares of 4×4 pixels. These are as wide as the lattice's period, so
+/// that a small light counts the same wherever it lies.
+fn is_sparse(point: SurfacePoint, taps: u32) -> bool {
     let radius = min(point.filter_radius_pixels, LARGEST_FILTER_RADIUS);
-    let is_sparse = radius * radius >= SPARSE_TAP_AREA * f32(LATTICE_SLICES * taps);
-    return select(BLOCK_LEVEL, COARSE_LEVEL, is_sparse);
+    return radius * radius >= SPARSE_TAP_AREA * f32(LATTICE_SLICES * taps);
 }
 
 /// Light that enters `point`, the middle of a block, from beyond the disc of 36 pixels.
 ///
-/// Slices differ by a quarter of a stratum in radius and by a quarter turn; frames by the golden ratio's part of a
-/// turn.
+/// Slices differ by a quarter turn, and every second one by half a stratum in radius; frames by the golden ratio's
+/// part of a turn. Blocks across a corner have opposite taps: what squares are off in one is made up in the other, so
+/// that a gradient of light stays where it is.
 fn gather_far_field(
     coarse: texture_2d<u32>,
     point: SurfacePoint,
@@ -41,14 +41,14 @@ fn gather_far_field(
         return gathered;
     }
     let u_range = FAR_QUANTILE - u_inner;
-    let level = far_level(point, taps);
+    let reads_squares = is_sparse(point, taps);
     let start = TAU * fract(slice / f32(LATTICE_SLICES) + GOLDEN_FRACTION * f32(frame % 64u));
     var direction = vec2f(cos(start), sin(start));
     for (var tap = 0u; tap < taps; tap += 1u) {
-        let stratum = (f32(tap) + (slice + 0.5) / f32(LATTICE_SLICES)) / f32(taps);
+        let stratum = (f32(tap) + 0.5 * (slice % 2.0 + 0.5)) / f32(taps);
         let quantile = FAR_STRETCH * curve_quantile(point.widest.curve, u_inner + stratum * u_range);
         let position = tap_position(point, quantile.x, direction);
-        let pixel = coarse_pixel(coarse, level, position);
+        let pixel = coarse_pixel_at(coarse, reads_squares, position);
         gathered = together(gathered, light_of_tap(point, quantile, position, pixel));
         direction = turned(direction, LATTICE_TURN);
     }

@@ -1,4 +1,4 @@
-// uses: gather/{gathered, input, rejection}, kernel/constants, kernels/interleaved/{agreement, receiver}, the material set
+// uses: gather/{gathered, input, rejection}, kernel/constants, kernels/interleaved/receiver, the material set
 
 /// The eight pixels around one: beside it, and across its corners. Members, not an array, for the reason that
 /// `FarFields` gives.
@@ -49,11 +49,11 @@ fn ring_share(apart: vec2i, beside: vec3f, across: vec3f) -> vec3f {
 /// Light of one pixel of the ring, `apart` from the centre, whose share on a flat surface is `share`.
 fn pixel_light(at: Receiver, pixel: InputPixel, apart: vec2i, share: vec3f) -> Gathered {
     let is_other = REJECT_BY_MATERIAL && pixel.material != at.surface.material;
-    let apart_by = apart_in_depth(at.depth_scale, pixel.distance_mm, at.surface.distance_mm);
-    let steps = BLOCK_DEPTH_PIXELS * apart_by;
+    let deeper = at.depth_scale * (pixel.distance_mm - at.surface.distance_mm);
+    let squared = min(deeper * deeper, 1.0);
     // Close to the centre profiles fall about as r^-2 or slower: what depth leaves of the flat share.
-    let squared_radius = f32(dot(apart, apart));
-    let by_depth = depth_agreement(apart_by) * squared_radius / (squared_radius + steps * steps);
+    let by_radius = BLOCK_DEPTH_PIXELS * BLOCK_DEPTH_PIXELS / f32(dot(apart, apart));
+    let by_depth = (1.0 - squared) / (1.0 + by_radius * squared);
     let by_normal = accepted_by_normal(at.normal, at.position + apart, at.span_mm);
     let weight = share * select(by_depth * by_normal, 0.0, is_other || pixel.material == NO_MATERIAL);
     return Gathered(weight * pixel.irradiance, weight);

@@ -23,21 +23,33 @@ fn is_on_surface(pixel: InputPixel, first: InputPixel, reach_mm: f32) -> f32 {
     return select(1.0, 0.0, pixel.material == NO_MATERIAL || is_other || is_remote);
 }
 
-/// Four pixels or squares, which lie in two rows of two, as one that is `side` pixels wide: the mean of those that
-/// lie on the first one's surface.
-fn square_of(a: InputPixel, b: InputPixel, c: InputPixel, d: InputPixel, side: f32) -> InputPixel {
+/// Four pixels, which lie in two rows of two, as one: the mean of those that lie on the first one's surface. Two of
+/// them count as all, and fewer give no light: along a silhouette that is right in the mean.
+fn block_of_pixels(a: InputPixel, b: InputPixel, c: InputPixel, d: InputPixel) -> InputPixel {
     let first = first_lit(a, b, c, d);
-    let reach_mm = STEEPEST_SQUARE * side * span_mm(subsurface_view, first.distance_mm);
+    let reach_mm = STEEPEST_SQUARE * f32(BLOCK_SIDE) * span_mm(subsurface_view, first.distance_mm);
     let members = vec4f(
         is_on_surface(a, first, reach_mm),
         is_on_surface(b, first, reach_mm),
         is_on_surface(c, first, reach_mm),
         is_on_surface(d, first, reach_mm),
     );
-    let shares = members / max(dot(members, vec4f(1.0)), 1.0);
+    let count = dot(members, vec4f(1.0));
+    let shares = members / max(count, 1.0);
     return InputPixel(
         (shares.x * a.irradiance + shares.y * b.irradiance) + (shares.z * c.irradiance + shares.w * d.irradiance),
         dot(shares, vec4f(a.distance_mm, b.distance_mm, c.distance_mm, d.distance_mm)),
-        first.material,
+        select(NO_MATERIAL, first.material, count > 1.0),
+    );
+}
+
+/// Four blocks as one square of 4×4 pixels; without light unless all lie on one surface.
+fn square_of_blocks(a: InputPixel, b: InputPixel, c: InputPixel, d: InputPixel) -> InputPixel {
+    let reach_mm = 2.0 * STEEPEST_SQUARE * f32(BLOCK_SIDE) * span_mm(subsurface_view, a.distance_mm);
+    let members = is_on_surface(b, a, reach_mm) * is_on_surface(c, a, reach_mm) * is_on_surface(d, a, reach_mm);
+    return InputPixel(
+        0.25 * ((a.irradiance + b.irradiance) + (c.irradiance + d.irradiance)),
+        0.25 * ((a.distance_mm + b.distance_mm) + (c.distance_mm + d.distance_mm)),
+        select(NO_MATERIAL, a.material, members > 0.0),
     );
 }
