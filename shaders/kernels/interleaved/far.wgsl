@@ -6,8 +6,8 @@
 const GOLDEN_FRACTION: f32 = 0.61803399;
 
 /// Slice of the lattice that a block takes: 0…3, each once in any 2×2 blocks.
-fn lattice_slice(block: vec2i) -> f32 {
-    return f32(((block.x + block.y) & 1) + 2 * (block.y & 1));
+fn lattice_slice(block: vec2i) -> i32 {
+    return (block.x & 1) + 2 * ((block.x + block.y) & 1);
 }
 
 /// Taps of a block for its far field, where a pixel has a budget of `taps`: the blocks around cost as much as
@@ -25,14 +25,13 @@ fn is_sparse(point: SurfacePoint, taps: u32) -> bool {
 
 /// Light that enters `point`, the middle of a block, from beyond the disc of 36 pixels.
 ///
-/// Slices differ by a quarter turn, and every second one by half a stratum in radius; frames by the golden ratio's
-/// part of a turn. Blocks across a corner have opposite taps: what squares are off in one is made up in the other, so
-/// that a gradient of light stays where it is.
+/// Slices differ by a quarter of a stratum in radius and by a quarter turn; frames by the golden ratio's part of a
+/// turn.
 fn gather_far_field(
     coarse: texture_2d<u32>,
     point: SurfacePoint,
     taps: u32,
-    slice: f32,
+    slice: i32,
     frame: u32,
 ) -> Gathered {
     var gathered = Gathered(vec3f(0.0), vec3f(0.0));
@@ -42,10 +41,10 @@ fn gather_far_field(
     }
     let u_range = FAR_QUANTILE - u_inner;
     let reads_squares = is_sparse(point, taps);
-    let start = TAU * fract(slice / f32(LATTICE_SLICES) + GOLDEN_FRACTION * f32(frame % 64u));
+    let start = TAU * fract(f32(slice) / f32(LATTICE_SLICES) + GOLDEN_FRACTION * f32(frame % 64u));
     var direction = vec2f(cos(start), sin(start));
     for (var tap = 0u; tap < taps; tap += 1u) {
-        let stratum = (f32(tap) + 0.5 * (slice % 2.0 + 0.5)) / f32(taps);
+        let stratum = (f32(tap) + (f32(slice) + 0.5) / f32(LATTICE_SLICES)) / f32(taps);
         let quantile = FAR_STRETCH * curve_quantile(point.widest.curve, u_inner + stratum * u_range);
         let position = tap_position(point, quantile.x, direction);
         let pixel = coarse_pixel_at(coarse, reads_squares, position);

@@ -44,7 +44,7 @@ impl Lattice {
             let start = TAU * slice as f64 / f64::from(LATTICE_SLICES);
             let mut direction = [start.cos(), start.sin()];
             let taps = (0..taps).map(|tap| {
-                let within = 0.5 * ((slice % 2) as f64 + 0.5);
+                let within = (slice as f64 + 0.5) / f64::from(LATTICE_SLICES);
                 let stratum = (f64::from(tap) + within) / f64::from(taps);
                 let (radius, slope) = point.quantile(u_inner + stratum * u_range);
                 let here = direction;
@@ -86,5 +86,5 @@ impl Lattice {
 
 /// Slice of the lattice that a block takes.
 pub(crate) fn lattice_slice([x, y]: [i32; 2]) -> usize {
-    (((x + y) & 1) + 2 * (y & 1)) as usize
+    ((x & 1) + 2 * ((x + y) & 1)) as usize
 }
