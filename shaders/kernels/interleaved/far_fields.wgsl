@@ -6,7 +6,7 @@ struct FarField {
     surface: InputSurface,
     /// Light from beyond the ring.
     light: Gathered,
-    /// What the depth from it to a pixel counts for: ½ where light comes from twice as far as in a narrow filter.
+    /// What the depth from it to a pixel is multiplied by: 2^−`depth_doublings`.
     depth_factor: f32,
 }
 
