@@ -107,6 +107,10 @@ constants! {
     /// be filled evenly.
     LATTICE_TURN: Vec2([f64; 2]) = [-0.825_340_805_389_046_5, 0.564_634_886_417_550_4];
 
+    /// Direction of a slice's first tap, turns: here the taps of all slices cross an edge along rows or columns most
+    /// evenly, of twenty directions that were tried (step edges at mean radii of 4 to 26 pixels, 2 to 16 taps).
+    LATTICE_START: F32(f64) = 0.1625;
+
     /// Share of the stretched profile that is sampled; what lies beyond is renormalized.
     FAR_QUANTILE: F32(f64) = 0.98;
 

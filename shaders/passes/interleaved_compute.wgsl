@@ -22,11 +22,12 @@ fn classify_compute(
     if index < side * side {
         let within = vec2u(index % side, index / side);
         let first = 2u * (within.y * BLOCKS_OF_TILE + within.x);
-        let square = square_of_blocks(
+        let square = mean_pixel(
             tile_squares[first],
             tile_squares[first + 1u],
             tile_squares[first + BLOCKS_OF_TILE],
             tile_squares[first + BLOCKS_OF_TILE + 1u],
+            f32(BLOCK_SIDE),
         );
         let place = coarse_texel(vec2i(tile.xy * side + within));
         textureStore(two_word_target, place, vec4u(pack_square(square), 0u, 0u));

@@ -35,6 +35,14 @@ impl Tap {
         }
     }
 
+    /// The same, read where its square radius is less by `blur` pixels².
+    pub(crate) fn narrowed(self, blur: f64) -> Self {
+        let [x, y] = self.offset;
+        let squared = x * x + y * y;
+        let narrower = (1.0 - blur / squared).max(0.0).sqrt();
+        Self { offset: self.offset.map(|component| narrower * component), ..self }
+    }
+
     /// Its weight where it lies `depth` pixels deeper than the point, or higher.
     pub(crate) fn weight(&self, point: &Point<'_>, depth: f64) -> Rgb {
         if depth == 0.0 {

@@ -22,7 +22,7 @@ use block_ring::BlockRing;
 use far::{Lattice, far_taps};
 use near::NearField;
 use ring::ring_light;
-use window::window_shares;
+use window::{window_of_taps, window_variance};
 
 /// The near field and the lattice of one footprint.
 #[derive(Debug)]
@@ -38,9 +38,9 @@ pub(crate) struct Interleaved<'a> {
 
 impl<'a> Interleaved<'a> {
     pub(crate) fn new(point: Point<'a>, taps: u32) -> Self {
-        let window = window_shares(taps);
+        let window = window_of_taps(taps);
         let taps = point.footprint_taps(far_taps(taps));
-        let lattice = (taps > 0).then(|| Lattice::new(&point, taps));
+        let lattice = (taps > 0).then(|| Lattice::new(&point, taps, window_variance(window)));
         let block_ring = BlockRing::new(&point);
         Self { near: NearField::new(&point), block_ring, point, window, lattice }
     }

@@ -14,6 +14,7 @@ struct BlockLight {
 /// A filter of less than a pixel leaves all light at the centre; up to two pixels it comes in by and by.
 fn block_light(
     view: SubsurfaceView,
+    pixels: texture_2d<u32>,
     coarse: texture_2d<u32>,
     point: SurfacePoint,
     block: vec2i,
@@ -22,9 +23,9 @@ fn block_light(
     if taps == 0u {
         return BlockLight(Gathered(vec3f(0.0), vec3f(0.0)), NearField(vec3f(1.0), vec3f(0.0)), 0u);
     }
-    let sampled = gather_far_field(coarse, point, taps, lattice_slice(block), view.frame_index);
+    let sampled = gather_far_field(view, pixels, coarse, point, taps, lattice_slice(block));
     let near = near_field(point);
-    let far = with_block_ring(sampled, coarse, point, block);
+    let far = with_block_ring(sampled, pixels, coarse, point, block);
     let blend = footprint_blend(point);
     return BlockLight(
         Gathered(blend * far.irradiance, blend * far.weight),
@@ -65,5 +66,5 @@ fn texel_of_block(pixels: texture_2d<u32>, coarse: texture_2d<u32>, block: vec2i
         surface.surface_albedo,
         surface.mean_free_path_scale,
     );
-    return block_texel(block_light(subsurface_view, coarse, point, block));
+    return block_texel(block_light(subsurface_view, pixels, coarse, point, block));
 }

@@ -35,6 +35,7 @@ fn block_ring(point: SurfacePoint) -> BlockRing {
 /// `sampled` light and that of the blocks around `block`, whose middle is `point`.
 fn with_block_ring(
     sampled: Gathered,
+    pixels: texture_2d<u32>,
     coarse: texture_2d<u32>,
     point: SurfacePoint,
     block: vec2i,
@@ -45,8 +46,11 @@ fn with_block_ring(
     var gathered = sampled;
     for (var neighbour = 0; neighbour < 8; neighbour += 1) {
         let apart = ring_place(neighbour);
-        let position = BLOCK_SIDE * (block + apart);
-        let pixel = block_pixel_at(coarse, position);
+        // Where the block is no square, one of its pixels: each as often as the others, and opposite ones in opposite
+        // blocks.
+        let which = (vec2i(neighbour, neighbour >> 1u) + block) & vec2i(1);
+        let position = BLOCK_SIDE * (block + apart) + which;
+        let pixel = coarse_pixel_at(pixels, coarse, false, position);
         if accepts_material(point, pixel.material) {
             let steps = depth_difference_mm(point, pixel.distance_mm) / point.pixel_mm;
             let squared_radius = f32(BLOCK_SIDE * BLOCK_SIDE * dot(apart, apart));

@@ -59,21 +59,21 @@ fn block_surface(coarse: texture_2d<u32>, block: vec2i) -> InputSurface {
     return unpack_surface(textureLoad(coarse, block, 0).y);
 }
 
-/// The square of 2×2 pixels around the pixel at `position`; none outside of the target.
-fn block_pixel_at(coarse: texture_2d<u32>, position: vec2i) -> InputPixel {
+/// What a tap at `position` reads: the square of 4×4 pixels around that if `is_sparse`, else the one of 2×2; the pixel
+/// itself where the square is not whole; nothing outside of the target.
+fn coarse_pixel_at(
+    pixels: texture_2d<u32>,
+    coarse: texture_2d<u32>,
+    is_sparse: bool,
+    position: vec2i,
+) -> InputPixel {
     if !is_inside(position) {
         return InputPixel(vec3f(0.0), 0.0, NO_MATERIAL);
     }
-    return unpack_pixel(textureLoad(coarse, position >> vec2u(1u), 0).rg);
-}
-
-/// The square of 4×4 pixels around the pixel at `position` if `is_sparse` and it is whole, else that of 2×2.
-fn coarse_pixel_at(coarse: texture_2d<u32>, is_sparse: bool, position: vec2i) -> InputPixel {
-    if is_sparse && is_inside(position) {
-        let square = unpack_pixel(textureLoad(coarse, coarse_texel(position >> vec2u(2u)), 0).rg);
-        if square.material != NO_MATERIAL {
-            return square;
-        }
+    let texel = select(position >> vec2u(1u), coarse_texel(position >> vec2u(2u)), is_sparse);
+    var words = textureLoad(coarse, texel, 0).rg;
+    if words.x == NO_LIGHT {
+        words = textureLoad(pixels, position, 0).rg;
     }
-    return block_pixel_at(coarse, position);
+    return unpack_pixel(words);
 }

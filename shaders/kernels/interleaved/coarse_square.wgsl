@@ -23,11 +23,12 @@ fn load_packed_block(pixels: texture_2d<u32>, block: vec2i) -> PackedBlock {
 
 /// The square of a block's pixels.
 fn square_of_block(packed: PackedBlock) -> InputPixel {
-    return block_of_pixels(
+    return mean_pixel(
         unpack_pixel(packed.a),
         unpack_pixel(packed.b),
         unpack_pixel(packed.c),
         unpack_pixel(packed.d),
+        1.0,
     );
 }
 
@@ -46,10 +47,11 @@ fn packed_block(pixels: texture_2d<u32>, block: vec2i) -> vec2u {
 /// The words of the square of 4×4 pixels whose texel is `texel`.
 fn packed_square(pixels: texture_2d<u32>, texel: vec2i) -> vec2u {
     let first = 2 * vec2i(texel.x, texel.y - block_rows());
-    return pack_square(square_of_blocks(
+    return pack_square(mean_pixel(
         square_of_block(load_packed_block(pixels, first)),
         square_of_block(load_packed_block(pixels, first + vec2i(1, 0))),
         square_of_block(load_packed_block(pixels, first + vec2i(0, 1))),
         square_of_block(load_packed_block(pixels, first + vec2i(1, 1))),
+        f32(BLOCK_SIDE),
     ));
 }

@@ -1,13 +1,13 @@
-// uses: gather/{curve, gathered, point, tap}, kernel/constants, kernels/interleaved/coarse, lib/angle, the material set
+// uses: gather/{curve, gathered, point, tap, view}, kernel/constants, kernels/interleaved/{coarse, window}, lib/angle, the material set
 
 // The light from beyond the ring of blocks: sampled.
 
 /// The golden ratio's fraction, turns: from one frame to the next.
 const GOLDEN_FRACTION: f32 = 0.61803399;
 
-/// Slice of the lattice that a block takes: 0…3, each once in any 2×2 blocks.
+/// Slice of the lattice that a block takes: 0…3, each once in any 2×2 blocks, and in turn around these.
 fn lattice_slice(block: vec2i) -> i32 {
-    return (block.x & 1) + 2 * ((block.x + block.y) & 1);
+    return ((block.x + block.y) & 1) + 2 * (block.y & 1);
 }
 
 /// Taps of a block for its far field, where a pixel has a budget of `taps`: the blocks around cost as much as
@@ -23,16 +23,25 @@ fn is_sparse(point: SurfacePoint, taps: u32) -> bool {
     return radius * radius >= SPARSE_TAP_AREA * f32(LATTICE_SLICES * taps);
 }
 
+/// Mean square distance from a tap's position to a pixel of the square that it falls into, pixels²: along an axis it is
+/// that from a position to the middle of a square of `side` pixels, side²/12, and from there to its pixels,
+/// (side² − 1)/12.
+fn reading_variance(side: f32) -> f32 {
+    return (2.0 * side * side - 1.0) / 6.0;
+}
+
 /// Light that enters `point`, the middle of a block, from beyond the disc of 36 pixels.
 ///
-/// Slices differ by a quarter of a stratum in radius and by a quarter turn; frames by the golden ratio's part of a
-/// turn.
+/// A slice is turned by a quarter from the one before and differs by half a stratum in radius: those of two blocks
+/// across a corner are opposite, so that what falls evenly over both comes out as it is. Frames differ by the golden
+/// ratio's part of a turn.
 fn gather_far_field(
+    view: SubsurfaceView,
+    pixels: texture_2d<u32>,
     coarse: texture_2d<u32>,
     point: SurfacePoint,
     taps: u32,
     slice: i32,
-    frame: u32,
 ) -> Gathered {
     var gathered = Gathered(vec3f(0.0), vec3f(0.0));
     let u_inner = profile_radial_cdf(point.widest, FAR_RADIUS_PIXELS * point.pixel_mm / FAR_STRETCH);
@@ -41,13 +50,18 @@ fn gather_far_field(
     }
     let u_range = FAR_QUANTILE - u_inner;
     let reads_squares = is_sparse(point, taps);
-    let start = TAU * fract(f32(slice) / f32(LATTICE_SLICES) + GOLDEN_FRACTION * f32(frame % 64u));
+    // What squares and windows blur, taps nearer to the point make up for: the mean square radius stays as it is.
+    let side = f32(BLOCK_SIDE) * select(1.0, 2.0, reads_squares);
+    let blur = (reading_variance(side) + 2.0 * window_variance(view.taps)) * point.pixel_mm * point.pixel_mm;
+    let turns = LATTICE_START + f32(slice) / f32(LATTICE_SLICES) + GOLDEN_FRACTION * f32(view.frame_index % 64u);
+    let start = TAU * fract(turns);
     var direction = vec2f(cos(start), sin(start));
     for (var tap = 0u; tap < taps; tap += 1u) {
-        let stratum = (f32(tap) + (f32(slice) + 0.5) / f32(LATTICE_SLICES)) / f32(taps);
+        let stratum = (f32(tap) + 0.25 + 0.5 * f32(slice & 1)) / f32(taps);
         let quantile = FAR_STRETCH * curve_quantile(point.widest.curve, u_inner + stratum * u_range);
-        let position = tap_position(point, quantile.x, direction);
-        let pixel = coarse_pixel_at(coarse, reads_squares, position);
+        let radius_mm = sqrt(max(quantile.x * quantile.x - blur, 0.0));
+        let position = tap_position(point, radius_mm, direction);
+        let pixel = coarse_pixel_at(pixels, coarse, reads_squares, position);
         gathered = together(gathered, light_of_tap(point, quantile, position, pixel));
         direction = turned(direction, LATTICE_TURN);
     }

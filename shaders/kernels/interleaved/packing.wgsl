@@ -30,7 +30,7 @@ fn pack_inputs_of_block(block: vec2i) -> PackedInput {
     let c = pack_input(first + vec2i(0, 1));
     let d = pack_input(first + vec2i(1, 1));
     let surface = first_surface(a.surface, b.surface, c.surface, d.surface);
-    let light = block_of_pixels(a.light, b.light, c.light, d.light);
+    let light = mean_pixel(a.light, b.light, c.light, d.light, 1.0);
     // Below the last row lie the squares of 4×4 pixels.
     if block.y < block_rows() {
         textureStore(two_word_target, block, vec4u(pack_block(surface, light), 0u, 0u));

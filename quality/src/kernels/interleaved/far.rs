@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use subsurface_kernel::constants::{
     BLOCK_SIDE, FAR_QUANTILE, FAR_RADIUS_PIXELS, FAR_STRETCH, LARGEST_FILTER_RADIUS, LATTICE_SLICES,
-    LATTICE_TURN, PIXELS_OF_BLOCK, RING_TAPS, SPARSE_TAP_AREA,
+    LATTICE_START, LATTICE_TURN, PIXELS_OF_BLOCK, RING_TAPS, SPARSE_TAP_AREA,
 };
 
 use crate::angle::turned;
@@ -32,33 +32,34 @@ pub(crate) fn far_taps(taps: u32) -> u32 {
 }
 
 impl Lattice {
-    /// The lattice for blocks with `taps` taps.
-    pub(crate) fn new(point: &Point<'_>, taps: u32) -> Self {
+    /// The lattice for blocks with `taps` taps, of which windows with that variance along an axis mix what they find.
+    pub(crate) fn new(point: &Point<'_>, taps: u32, window_variance: f64) -> Self {
         let widest = &point.optics.channels[point.optics.widest];
         let u_inner = widest.profile.radial_cdf(FAR_RADIUS_PIXELS * point.pixel / FAR_STRETCH);
         if taps == 0 || u_inner >= FAR_QUANTILE {
             return Self { slices: vec![Vec::new(); LATTICE_SLICES as usize], share: 0.0, side: BLOCK_SIDE };
         }
         let u_range = FAR_QUANTILE - u_inner;
+        let radius = point.filter_radius_pixels.min(LARGEST_FILTER_RADIUS);
+        let is_sparse = radius * radius >= SPARSE_TAP_AREA * f64::from(LATTICE_SLICES * taps);
+        let side = if is_sparse { 2 * BLOCK_SIDE } else { BLOCK_SIDE };
+        let blur = reading_variance(side) + 2.0 * window_variance;
         let slice = |slice: usize| {
-            let start = TAU * slice as f64 / f64::from(LATTICE_SLICES);
+            let start = TAU * (LATTICE_START + slice as f64 / f64::from(LATTICE_SLICES));
             let mut direction = [start.cos(), start.sin()];
             let taps = (0..taps).map(|tap| {
-                let within = (slice as f64 + 0.5) / f64::from(LATTICE_SLICES);
-                let stratum = (f64::from(tap) + within) / f64::from(taps);
+                let stratum = (f64::from(tap) + 0.25 + 0.5 * (slice & 1) as f64) / f64::from(taps);
                 let (radius, slope) = point.quantile(u_inner + stratum * u_range);
                 let here = direction;
                 direction = turned(direction, LATTICE_TURN);
-                Tap::new(point, (FAR_STRETCH * radius, FAR_STRETCH * slope), here)
+                Tap::new(point, (FAR_STRETCH * radius, FAR_STRETCH * slope), here).narrowed(blur)
             });
             taps.collect()
         };
-        let radius = point.filter_radius_pixels.min(LARGEST_FILTER_RADIUS);
-        let is_sparse = radius * radius >= SPARSE_TAP_AREA * f64::from(LATTICE_SLICES * taps);
         Self {
             slices: (0..LATTICE_SLICES as usize).map(slice).collect(),
             share: u_range / f64::from(taps),
-            side: if is_sparse { 2 * BLOCK_SIDE } else { BLOCK_SIDE },
+            side,
         }
     }
 
@@ -84,7 +85,12 @@ impl Lattice {
     }
 }
 
+/// Mean square distance from a tap's position to a pixel of the square of `side` pixels that it falls into, pixels².
+fn reading_variance(side: i32) -> f64 {
+    f64::from(2 * side * side - 1) / 6.0
+}
+
 /// Slice of the lattice that a block takes.
 pub(crate) fn lattice_slice([x, y]: [i32; 2]) -> usize {
-    ((x & 1) + 2 * ((x + y) & 1)) as usize
+    (((x + y) & 1) + 2 * (y & 1)) as usize
 }
