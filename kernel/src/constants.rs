@@ -79,15 +79,6 @@ constants! {
     /// where the filter is small.
     BLOCK_DEPTH_PIXELS: F32(f64) = 6.0;
 
-    /// Share of a far field that pixels take where they no longer belong to it and are not yet REMOTE_DEPTH away.
-    REMOTE_AGREEMENT: F32(f64) = 1.0 / 256.0;
-
-    /// Depth from which pixels take nothing of a far field, in that up to which they belong to it.
-    REMOTE_DEPTH: F32(f64) = 8.0;
-
-    /// Part of a window that stands for all of it: where less agrees, the far field counts for less.
-    LEAST_WINDOW: F32(f64) = 1.0 / 16.0;
-
     /// Depth, in its side, over which a square is one surface.
     STEEPEST_SQUARE: F32(f64) = 2.0;
 

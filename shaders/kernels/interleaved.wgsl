@@ -1,4 +1,4 @@
-// uses: gather/gathered, kernel/constants, kernels/interleaved/{far_fields, mixture, near, receiver, ring, window}
+// uses: gather/gathered, kernels/interleaved/{far_fields, mixture, near, receiver, ring, window}
 
 // Near field, ring and far field.
 //
@@ -25,7 +25,7 @@ fn diffuse_interleaved(
     let columns = window_shares(side.x, taps);
     let rows = window_shares(side.y, taps);
     let above = with_row(
-        empty_mixture(),
+        Gathered(vec3f(0.0), vec3f(0.0)),
         at,
         fields.above_left,
         fields.above,
@@ -38,18 +38,11 @@ fn diffuse_interleaved(
     return mixed_light(at, mixture, shares.centre, ring_light, accepts_far_field(at, fields.home.surface));
 }
 
-/// Irradiance of a pixel whose far field is `mixture`.
+/// Irradiance of a pixel whose far field is `far`.
 ///
 /// Its own share `centre` and that of the ring are those of its block. Where that is another material's, which
-/// `is_home` denies, the pixel keeps what does not come from afar. A pixel that agrees with no block, such as one of a
-/// strand as thin as a pixel, keeps its own light.
-fn mixed_light(at: Receiver, mixture: Mixture, centre: vec3f, ring: Gathered, is_home: bool) -> vec3f {
-    if mixture.window == 0.0 {
-        return at.own;
-    }
-    // Where little of the window agrees, little of the light from there arrives.
-    let window = max(mixture.window, LEAST_WINDOW);
-    let far = Gathered(mixture.far.irradiance / window, mixture.far.weight / window);
+/// `is_home` denies, the pixel keeps what does not come from afar.
+fn mixed_light(at: Receiver, far: Gathered, centre: vec3f, ring: Gathered, is_home: bool) -> vec3f {
     let own = at.own_counts * select(max(vec3f(1.0) - far.weight, vec3f(0.0)), centre, is_home);
     let counts = select(0.0, 1.0, is_home);
     let near = Gathered(own * at.own + counts * ring.irradiance, own + counts * ring.weight);

@@ -46,7 +46,7 @@ fn subsurface_fragment(@builtin(position) position: vec4f) -> @location(0) vec4f
     let side = (pixel % BLOCK_SIDE) * 2 - 1;
     let columns = window_shares(side.x, subsurface_view.taps);
     let rows = window_shares(side.y, subsurface_view.taps);
-    var mixture = empty_mixture();
+    var mixture = Gathered(vec3f(0.0), vec3f(0.0));
     for (var row = 0; row < 3; row += 1) {
         for (var column = 0; column < 3; column += 1) {
             let field = load_far_field(intermediate_texture, coarse_texture, home + vec2i(column, row) - 1);

@@ -9,14 +9,14 @@ mod ring;
 mod square;
 mod window;
 
-use subsurface_kernel::constants::{BLOCK_SIDE, LEAST_WINDOW};
+use subsurface_kernel::constants::BLOCK_SIDE;
 
 use crate::gather::gathered::{Gathered, Rgb};
 use crate::gather::point::Point;
 use crate::pictures::patch::{PATCH_SIDE, Patch};
 use crate::pictures::scene::Scene;
 
-use agreement::remote_agreement;
+use agreement::depth_agreement;
 use block::Block;
 use block_ring::BlockRing;
 use far::{Lattice, far_taps};
@@ -76,21 +76,14 @@ impl<'a> Interleaved<'a> {
         let depth = scene.depth(x);
         let home = pixel.map(|place| place.div_euclid(BLOCK_SIDE));
         let [columns, rows] = pixel.map(|place| self.shares_of(place));
-        let mut mixed = Gathered::default();
-        let mut agreement = 0.0;
+        let mut gathered = Gathered::default();
         for (y, row) in (-1..).zip(rows) {
             for (x, column) in (-1..).zip(columns) {
                 let block = block_at([home[0] + x, home[1] + y]);
                 let share = row * column * self.agreement(block.depth - depth);
-                mixed.add_share(&block.far, share);
-                agreement += share;
+                gathered.add_share(&block.far, share);
             }
         }
-        if agreement == 0.0 {
-            return own;
-        }
-        let mut gathered = Gathered::default();
-        gathered.add_share(&mixed, 1.0 / agreement.max(LEAST_WINDOW));
         gathered.add(self.near.centre, own);
         gathered.add_share(&ring_light(&self.near, &self.point, scene, [x, y]), 1.0);
         gathered.diffused(own, self.point.returned)
@@ -104,6 +97,6 @@ impl<'a> Interleaved<'a> {
 
     /// Share of a far field that counts `apart` pixels of depth away.
     fn agreement(&self, apart: f64) -> f64 {
-        remote_agreement(self.point.depth_pixels(apart) * self.block_ring.depth_factor)
+        depth_agreement(self.point.depth_pixels(apart) * self.block_ring.depth_factor)
     }
 }

@@ -17,6 +17,7 @@ mod edges;
 mod energy;
 mod errors;
 mod footprints;
+mod hard_light;
 mod hostile;
 mod inputs;
 mod leaks;

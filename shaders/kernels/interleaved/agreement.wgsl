@@ -18,11 +18,3 @@ fn apart_in_depth(depth_scale: f32, a_mm: f32, b_mm: f32) -> f32 {
 fn depth_agreement(apart: f32) -> f32 {
     return 1.0 - apart * apart;
 }
-
-/// Share of a far field that counts for a pixel `apart` in depth: the same, and a little from there to REMOTE_DEPTH.
-/// Pixels of a silhouette may lie far behind all blocks, and the nearest have to serve them.
-fn remote_agreement(apart: f32) -> f32 {
-    let squared = apart * apart;
-    let remote = REMOTE_AGREEMENT - squared * (REMOTE_AGREEMENT / (REMOTE_DEPTH * REMOTE_DEPTH));
-    return max(max(1.0 - squared, remote), 0.0);
-}
