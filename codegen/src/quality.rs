@@ -25,7 +25,7 @@ pub(crate) fn solve(
             surface_albedo: material.surface_albedo,
         })
         .collect();
-    search(&materials, rejection, request.quality, request.estimator).map_err(|error| {
+    search(&materials, rejection, request.quality, request.estimator, request.device).map_err(|error| {
         Box::new(match error {
             SearchError::NoProfile(error) => no_profile(set, &error),
             SearchError::OutOfReach { best, error } => out_of_reach(request, best, error),

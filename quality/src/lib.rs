@@ -38,6 +38,7 @@
 //! What this crate does not know: RON, WGSL, the GPU; what a texture makes of a material.
 
 mod angle;
+mod device;
 pub mod gather;
 mod kernels;
 mod material;
@@ -53,9 +54,11 @@ mod search_error;
 #[cfg(test)]
 mod tests;
 
+pub use device::Device;
 pub use material::Material;
 pub use no_profile::NoProfile;
 pub use quality::{Quality, Tier};
 pub use report::{PictureReport, QualityReport, TierReport};
+pub use search::cost::cost;
 pub use search::search;
 pub use search_error::SearchError;

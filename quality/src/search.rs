@@ -5,6 +5,7 @@ pub(crate) mod cost;
 use subsurface_kernel::Estimator;
 use subsurface_kernel::Rejection;
 
+use crate::device::Device;
 use crate::material::Material;
 use crate::optics::Optics;
 use crate::pictures::case::{Case, Deviation, FOOTPRINTS};
@@ -14,8 +15,8 @@ use crate::report::{PictureReport, QualityReport, TierReport, stated};
 use crate::search_error::SearchError;
 use cost::{cost, counts, kinds};
 
-/// Searches the cheapest kernel for `materials` that is as good as `quality` asks for: of one `kind`, whatever its taps,
-/// or of all.
+/// Searches the kernel for `materials` that is the cheapest on `device` and as good as `quality` asks for: of one `kind`,
+/// whatever its taps, or of all.
 ///
 /// # Errors
 /// No kernel within the error, or a material without a profile at its surface albedo.
@@ -24,6 +25,7 @@ pub fn search(
     rejection: Rejection,
     quality: Quality,
     kind: Option<Estimator>,
+    device: Device,
 ) -> Result<QualityReport, SearchError> {
     let optics = Optics::of_all(materials).map_err(SearchError::NoProfile)?;
     let mut trial = Trial { cases: Case::all(&optics, rejection) };
@@ -32,7 +34,7 @@ pub fn search(
         None => kinds().flat_map(|kind| trial.counts(kind)).collect(),
     };
     // Stable: of two that cost the same, the kind that comes first.
-    candidates.sort_by(|a, b| cost(*a).total_cmp(&cost(*b)));
+    candidates.sort_by(|a, b| cost(*a, device).total_cmp(&cost(*b, device)));
     let Some((kernel, deviation)) = trial.first_within(&candidates, quality.target()) else {
         let (best, deviation) = trial.best(&candidates).unwrap_or((Estimator::Dense, Deviation::default()));
         return Err(SearchError::OutOfReach { best, error: stated(deviation.error) });

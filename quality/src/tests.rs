@@ -1,6 +1,6 @@
 use subsurface_profile::{Channel, EdgeSpread, Medium, Model};
 
-use super::{Material, NoProfile, Quality, QualityReport, SearchError, Tier, search};
+use super::{Device, Material, NoProfile, Quality, QualityReport, SearchError, Tier, search};
 use crate::gather::curve::quantile;
 use crate::gather::gathered::Rgb;
 use crate::gather::point::Point;
@@ -53,7 +53,8 @@ fn optics_of(samples: &[Sample]) -> Vec<Optics> {
 }
 
 fn solved(samples: &[Sample], quality: Quality, kind: Option<Estimator>) -> QualityReport {
-    search(&materials(samples), Rejection::default(), quality, kind).expect("a kernel within the error")
+    search(&materials(samples), Rejection::default(), quality, kind, Device::default())
+        .expect("a kernel within the error")
 }
 
 /// Over all cases.
@@ -337,7 +338,10 @@ fn candidates_are_allowed_and_sorted() {
         let kernels = counts(kind);
         assert!(kernels.len() > 5);
         assert!(kernels.iter().all(|kernel| kernel.refused_taps().is_none()));
-        assert!(kernels.is_sorted_by(|a, b| a.taps() < b.taps() && cost(*a) < cost(*b)));
+        for device in Device::ALL {
+            let is_dearer = |a: Estimator, b: Estimator| cost(a, device) < cost(b, device);
+            assert!(kernels.is_sorted_by(|a, b| a.taps() < b.taps() && is_dearer(*a, *b)), "{device:?}");
+        }
         assert_eq!(
             kernels.iter().map(|kernel| kernel.taps()).max(),
             Some(if kind.tap_counts().is_some_and(|counts| counts.odd) { 65 } else { 64 })
@@ -348,13 +352,29 @@ fn candidates_are_allowed_and_sorted() {
 }
 
 #[test]
+fn the_device_says_what_is_cheap() {
+    // On a software driver a pixel's setup is worth many taps, and strips are integrated at length.
+    let few = Estimator::ImportanceSampled { taps: 6 };
+    let interleaved = Estimator::Interleaved { taps: 4 };
+    let separable = Estimator::Separable { taps: 3, rotated: false };
+    assert!(cost(interleaved, Device::Software) < cost(few, Device::Software));
+    assert!(cost(few, Device::Software) < cost(separable, Device::Software));
+    for gpu in [Device::Rdna, Device::Gcn] {
+        assert!(cost(interleaved, gpu) < cost(few, gpu), "{gpu:?}");
+        // Three taps in two directions are no dearer than seven.
+        assert!(cost(separable, gpu) < cost(few.with_taps(7), gpu), "{gpu:?}");
+    }
+    assert_eq!(cost(Estimator::Dense, Device::Rdna), f64::INFINITY);
+}
+
+#[test]
 fn the_search_finds_what_trying_everything_finds() {
     let samples = [skin(), sample([0.2, 2.0, 1.0], [0.9, 0.99, 0.2])];
     let optics = optics_of(&samples);
     let mut cases = Case::all(&optics, Rejection::default());
     let mut all: Vec<(Estimator, f64)> =
         kinds().flat_map(counts).map(|kernel| (kernel, deviation(&mut cases, kernel).error)).collect();
-    all.sort_by(|(a, _), (b, _)| cost(*a).total_cmp(&cost(*b)));
+    all.sort_by(|(a, _), (b, _)| cost(*a, Device::default()).total_cmp(&cost(*b, Device::default())));
     let least = all.iter().map(|(_, error)| *error).fold(f64::INFINITY, f64::min);
     for target in [0.5, 0.06, least] {
         let (kernel, error) = all.iter().find(|(_, error)| *error <= target).expect("one is good enough");
@@ -371,7 +391,13 @@ fn the_search_finds_what_trying_everything_finds() {
         }
     }
     // Whatever is better than the best is refused, and the best is named.
-    let found = search(&materials(&samples), Rejection::default(), Quality::MaxError(0.99 * least), None);
+    let found = search(
+        &materials(&samples),
+        Rejection::default(),
+        Quality::MaxError(0.99 * least),
+        None,
+        Device::default(),
+    );
     let (best, _) = all.iter().find(|(_, error)| *error <= least).expect("the least is there");
     assert_eq!(found, Err(SearchError::OutOfReach { best: *best, error: stated(least) }));
 }
@@ -398,7 +424,13 @@ fn materials_that_look_alike_are_tried_once() {
 #[test]
 fn a_material_without_a_profile_is_named() {
     let nothing = sample([1.0; 3], [f64::NAN; 3]);
-    let found = search(&materials(&[skin(), nothing]), Rejection::default(), Quality::Tier(Tier::Low), None);
+    let found = search(
+        &materials(&[skin(), nothing]),
+        Rejection::default(),
+        Quality::Tier(Tier::Low),
+        None,
+        Device::default(),
+    );
     assert!(matches!(found, Err(SearchError::NoProfile(NoProfile { material: 1, .. }))), "{found:?}");
 }
 

@@ -3,12 +3,12 @@
 use crate::diagnostics::Diagnostic;
 use crate::quality_request::QualityRequest;
 use crate::schema::body::Body;
-use crate::schema::choice::{no_word, unknown_word};
+use crate::schema::choice::{choice, no_word, unknown_word};
 use crate::schema::decoder::{Decoder, Fields, Given};
 use crate::suggestion::shortened;
 use crate::syntax::{Node, Shape};
 use subsurface_kernel::Estimator;
-use subsurface_quality::{Quality, Tier};
+use subsurface_quality::{Device, Quality, Tier};
 
 const WORDS: [&str; 5] = ["MaxError", "Low", "Medium", "High", "Ultra"];
 
@@ -18,14 +18,33 @@ pub(super) fn decode_quality(
     fields: &Fields<'_>,
     estimator: &Given<Estimator>,
 ) -> Given<QualityRequest> {
+    let device = decode_device(decoder, fields);
     fields.optional("quality", |node| {
         let quality = decode_value(decoder, node);
         let agrees = fields.get("kernel").is_none_or(|entry| leaves_a_choice(decoder, &entry.value, node));
         if estimator.is_bad() || !agrees {
             return None;
         }
-        Some(QualityRequest { quality: quality?, estimator: estimator.value().copied(), span: node.span() })
+        let estimator = estimator.value().copied();
+        Some(QualityRequest { quality: quality?, estimator, device: device?, span: node.span() })
     })
+}
+
+/// What a kernel is to be cheap on, where it is searched by its error.
+fn decode_device(decoder: &mut Decoder, fields: &Fields<'_>) -> Option<Device> {
+    let Some(entry) = fields.get("device") else { return Some(Device::default()) };
+    let name = choice(decoder, &entry.value, "device", &Device::ALL.map(Device::name))?;
+    if fields.get("quality").is_none() {
+        decoder.report(
+            Diagnostic::warning("`device` without `quality`")
+                .label(
+                    entry.key.span.clone(),
+                    "says on what a kernel that is searched by its error is to be cheap",
+                )
+                .help("remove it, or ask for an error in place of taps: `quality: MaxError(0.02)`"),
+        );
+    }
+    Device::ALL.into_iter().find(|device| device.name() == name)
 }
 
 fn decode_value(decoder: &mut Decoder, node: &Node<'_>) -> Option<Quality> {
@@ -138,6 +157,27 @@ mod tests {
             ),
         ] {
             assert_eq!(decoded(&format!("MaterialSet({text})")), Ok(expected), "{text}");
+        }
+    }
+
+    #[test]
+    fn a_device_says_on_what_a_kernel_is_to_be_cheap() {
+        for (text, expected) in [
+            ("quality: Low", Device::Rdna),
+            ("quality: Low, device: Rdna", Device::Rdna),
+            ("device: Gcn, quality: Low", Device::Gcn),
+            ("quality: Low, device: Software", Device::Software),
+        ] {
+            let set = decoded_file(&format!("MaterialSet({text})")).expect(text);
+            assert_eq!(set.quality.value().map(|request| request.device), Some(expected), "{text}");
+        }
+        for (text, message, place) in [
+            ("quality: Low, device: rdna", "unknown device `rdna`", "rdna"),
+            ("quality: Low, device: 3", "`device` has the wrong type", "3"),
+            ("device: Gcn", "`device` without `quality`", "device"),
+        ] {
+            let expected = Err([message.to_owned(), place.to_owned()]);
+            assert_eq!(decoded(&format!("MaterialSet({text})")), expected, "{text}");
         }
     }
 

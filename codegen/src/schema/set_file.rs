@@ -26,7 +26,7 @@ pub(crate) struct SetFile {
     pub(crate) quality: Given<QualityRequest>,
 }
 
-const FIELDS: [&str; 4] = ["version", "kernel", "quality", "rejection"];
+const FIELDS: [&str; 5] = ["version", "kernel", "quality", "device", "rejection"];
 
 /// Names of the kernels.
 fn kernels() -> Vec<&'static str> {

@@ -2,20 +2,53 @@
 
 use subsurface_kernel::Estimator;
 
-/// Time per pixel in units of one tap of `ImportanceSampled`.
+use crate::device::Device;
+
+/// Time per pixel on a device, as a line over the number of taps.
+struct Line {
+    setup: f64,
+    per_tap: f64,
+}
+
+/// Time of a kernel per pixel on `device`; infinite for `Dense`, whose time depends on the scene.
 ///
-/// Lines through the times that `cargo bench --bench kernels` gives for Burley's profile at a mean radius of 5 pixels
-/// on a software driver, where a tap costs what it computes. They only order the search: a GPU has other figures.
-pub(crate) fn cost(kernel: Estimator) -> f64 {
-    match kernel {
-        // What a pixel sets up is worth eight taps.
-        Estimator::ImportanceSampled { taps } => 8.0 + f64::from(taps),
-        // The ring of eight pixels, nine blocks to mix and a stage more; taps read packed pixels.
-        Estimator::Interleaved { taps } => 8.5 + 0.7 * f64::from(taps),
+/// It only orders kernels on one device. On a GPU it is in cycles of a SIMD, as `cargo xtask shader-cost` estimates them
+/// for the compute path and the ready-made materials. On a software driver it is in taps of `ImportanceSampled`, by the
+/// times that `cargo bench --bench kernels` gives for Burley's profile at a mean radius of 5 pixels.
+#[must_use]
+pub fn cost(kernel: Estimator, device: Device) -> f64 {
+    let line = |setup, per_tap| Line { setup, per_tap };
+    let (taps, Line { setup, per_tap }) = match kernel {
+        // On a GPU most of a pixel is its taps: each has a load and the densities of three channels.
+        Estimator::ImportanceSampled { taps } => {
+            let line = match device {
+                Device::Rdna => line(6.1, 2.75),
+                Device::Gcn => line(15.1, 8.53),
+                Device::Software => line(8.0, 1.0),
+            };
+            (taps, line)
+        }
+        // A stage more, a ring of pixels and one of blocks; four pixels share their taps.
+        Estimator::Interleaved { taps } => {
+            let line = match device {
+                Device::Rdna => line(15.1, 1.39),
+                Device::Gcn => line(34.4, 4.46),
+                Device::Software => line(8.5, 0.7),
+            };
+            (taps, line)
+        }
         // Two stages that each set up a pixel and the integrals of its strips.
-        Estimator::Separable { taps, .. } => 42.0 + 1.8 * f64::from(taps),
-        Estimator::Dense => f64::INFINITY,
-    }
+        Estimator::Separable { taps, .. } => {
+            let line = match device {
+                Device::Rdna => line(5.9, 5.0),
+                Device::Gcn => line(12.9, 13.1),
+                Device::Software => line(42.0, 1.8),
+            };
+            (taps, line)
+        }
+        Estimator::Dense => return f64::INFINITY,
+    };
+    setup + per_tap * f64::from(taps)
 }
 
 /// Numbers of taps that are tried: steps of a third to a half, since the error falls about with their root.

@@ -27,11 +27,14 @@ fn energy_by_place(diffuser: &mut Diffuser, material: u32) -> (f64, f64) {
     let (mut least, mut most) = (f64::INFINITY, 0.0_f64);
     for number in 0..PERIOD * PERIOD {
         let first = [number % PERIOD * APART, number / PERIOD * APART];
-        for channel in 0..3 {
-            let around = (0..APART * APART).map(|at| [first[0] + at % APART, first[1] + at / APART]);
-            let energy: f64 = around.map(|[x, y]| f64::from(picture[buffers.index(x, y)][channel])).sum();
-            (least, most) = (least.min(energy), most.max(energy));
+        let around = (0..APART * APART).map(|at| [first[0] + at % APART, first[1] + at / APART]);
+        let mut energy = [0.0; 3];
+        for pixel in around.map(|[x, y]| picture[buffers.index(x, y)]) {
+            for (sum, channel) in energy.iter_mut().zip(pixel) {
+                *sum += f64::from(channel);
+            }
         }
+        (least, most) = energy.into_iter().fold((least, most), |(a, b), sum| (a.min(sum), b.max(sum)));
     }
     (least, most)
 }
