@@ -339,8 +339,8 @@ fn candidates_are_allowed_and_sorted() {
         assert!(kernels.len() > 5);
         assert!(kernels.iter().all(|kernel| kernel.refused_taps().is_none()));
         for device in Device::ALL {
-            let is_dearer = |a: Estimator, b: Estimator| cost(a, device) < cost(b, device);
-            assert!(kernels.is_sorted_by(|a, b| a.taps() < b.taps() && is_dearer(*a, *b)), "{device:?}");
+            let is_cheaper = |a: Estimator, b: Estimator| cost(a, device) < cost(b, device);
+            assert!(kernels.is_sorted_by(|a, b| a.taps() < b.taps() && is_cheaper(*a, *b)), "{device:?}");
         }
         assert_eq!(
             kernels.iter().map(|kernel| kernel.taps()).max(),

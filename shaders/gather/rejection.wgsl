@@ -1,4 +1,4 @@
-// uses: gather/{input, normal, point}, the material set; needs: input_surface
+// uses: gather/{input, normal, point}, the material set
 
 // Which light counts. The policy stands in constants that the compiler writes: REJECT_BY_MATERIAL, REJECT_BY_DISTANCE
 // and REJECT_BY_NORMAL.
@@ -13,10 +13,9 @@ fn depth_difference_mm(point: SurfacePoint, distance_mm: f32) -> f32 {
     return select(0.0, (distance_mm - point.distance_mm) * point.per_mm, REJECT_BY_DISTANCE);
 }
 
-/// Share of a tap's light that its normal lets through, beside a surface of `normal`: the cosine between the two. All
-/// of it where the pixel at `position` has no normal, as one of a square that others make up.
+/// Share of a tap's light that its normal lets through, beside a surface of `normal`: the cosine between the two.
 fn accepted_by_normal(normal: vec3f, position: vec2i, span_mm: f32) -> f32 {
-    if !REJECT_BY_NORMAL || input_surface(position).material == NO_MATERIAL {
+    if !REJECT_BY_NORMAL {
         return 1.0;
     }
     return max(dot(normal, surface_normal(position, span_mm)), 0.0);

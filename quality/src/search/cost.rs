@@ -28,7 +28,7 @@ pub fn cost(kernel: Estimator, device: Device) -> f64 {
             };
             (taps, line)
         }
-        // A stage more, a ring of pixels and one of blocks; four pixels share their taps.
+        // A stage more, a ring of pixels and one of blocks; taps read packed squares.
         Estimator::Interleaved { taps } => {
             let line = match device {
                 Device::Rdna => line(15.1, 1.39),

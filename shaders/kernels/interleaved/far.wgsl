@@ -23,11 +23,11 @@ fn is_sparse(point: SurfacePoint, taps: u32) -> bool {
     return radius * radius >= SPARSE_TAP_AREA * f32(LATTICE_SLICES * taps);
 }
 
-/// Mean square distance from a tap's position to a pixel of the square that it falls into, pixels²: along an axis it is
-/// that from a position to the middle of a square of `side` pixels, side²/12, and from there to its pixels,
-/// (side² − 1)/12.
+/// What reading squares of `side` pixels adds to the mean square distance, pixels²: along an axis side²/12 from a tap's
+/// position to the middle of its square, and (side² − 1)/12 from there to its pixels; less 1/12, which reading pixels
+/// adds and summing them too.
 fn reading_variance(side: f32) -> f32 {
-    return (2.0 * side * side - 1.0) / 6.0;
+    return (side * side - 1.0) / 3.0;
 }
 
 /// Light that enters `point`, the middle of a block, from beyond the disc of 36 pixels.
@@ -50,7 +50,8 @@ fn gather_far_field(
     }
     let u_range = FAR_QUANTILE - u_inner;
     let reads_squares = is_sparse(point, taps);
-    // What squares and windows blur, taps nearer to the point make up for: the mean square radius stays as it is.
+    // What squares and windows blur, taps nearer to the point make up for: the mean square radius of what is sampled
+    // stays as it is.
     let side = f32(BLOCK_SIDE) * select(1.0, 2.0, reads_squares);
     let blur = (reading_variance(side) + 2.0 * window_variance(view.taps)) * point.pixel_mm * point.pixel_mm;
     let turns = LATTICE_START + f32(slice) / f32(LATTICE_SLICES) + GOLDEN_FRACTION * f32(view.frame_index % 64u);

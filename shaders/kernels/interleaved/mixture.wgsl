@@ -13,7 +13,7 @@ fn far_field_agreement(at: Receiver, field: FarField) -> f32 {
 
 /// The light of `mixture` with the part `share` of a field, as far as it agrees with the pixel.
 ///
-/// What does not agree is missing: at a silhouette as much is missing around the pixel itself.
+/// What does not agree is missing, and the pixel and its ring count for more: at a silhouette little arrives from afar.
 fn with_field(mixture: Gathered, at: Receiver, field: FarField, share: f32) -> Gathered {
     let agreed = share * far_field_agreement(at, field);
     return together(mixture, Gathered(agreed * field.light.irradiance, agreed * field.light.weight));

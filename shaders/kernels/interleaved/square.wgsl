@@ -1,11 +1,13 @@
-// uses: gather/{input, view}, kernel/constants; needs: subsurface_view
+// uses: gather/{input, view}, kernel/constants, the material set; needs: subsurface_view
 
 // Squares of pixels as one pixel: blocks of 2×2 pixels, and four of these. Where more than one surface meets there is
 // none, and pixels are read one by one.
 
-/// Whether a pixel lies on the surface of `first`, at most `reach_mm` in front of it or behind it.
+/// Whether a pixel gives light and lies on the surface of `first`, at most `reach_mm` in front of it or behind it.
 fn is_on_surface(pixel: InputPixel, first: InputPixel, reach_mm: f32) -> bool {
-    return pixel.material == first.material && abs(pixel.distance_mm - first.distance_mm) <= reach_mm;
+    let is_other = REJECT_BY_MATERIAL && pixel.material != first.material;
+    let is_remote = REJECT_BY_DISTANCE && abs(pixel.distance_mm - first.distance_mm) > reach_mm;
+    return pixel.material != NO_MATERIAL && !is_other && !is_remote;
 }
 
 /// Four pixels, which lie in two rows of two and are `side` wide, as one: their mean; without light unless all give

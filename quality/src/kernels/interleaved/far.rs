@@ -85,9 +85,9 @@ impl Lattice {
     }
 }
 
-/// Mean square distance from a tap's position to a pixel of the square of `side` pixels that it falls into, pixels².
+/// What reading squares of `side` pixels adds to the mean square distance, pixels².
 fn reading_variance(side: i32) -> f64 {
-    f64::from(2 * side * side - 1) / 6.0
+    f64::from(side * side - 1) / 3.0
 }
 
 /// Slice of the lattice that a block takes.
