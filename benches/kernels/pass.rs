@@ -62,7 +62,7 @@ impl Pass {
         settings: &[Settings],
     ) -> Result<Self, Failure> {
         let device = &stage.device.device;
-        let path = stage.path.unwrap_or(Path::Compute);
+        let path = stage.route.path.unwrap_or(Path::Compute);
         let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some("baseline"),
             source: wgpu::ShaderSource::Wgsl(format!("{}\n{text}", include_str!("baseline.wgsl")).into()),

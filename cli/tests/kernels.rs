@@ -227,6 +227,29 @@ fn taps_override_the_kernel_s_own_number() {
     ");
 }
 
+#[test]
+fn a_shape_is_chosen_where_there_are_two() {
+    let folder = tempfile::tempdir().unwrap();
+    let [hardware, software] =
+        ["hardware", "software"].map(|shape| diffused(&folder, &["--path", "compute", "--shape", shape]));
+    let between = rmse(&hardware, &software);
+    println!("between the shapes: {between:.1e}");
+    // 100 dB below the step.
+    assert!(between < 1e-5, "{between}");
+    let arguments = ["diffuse", "--materials", MATERIALS, "--material", "skin", "--mm-per-pixel", "1"];
+    let (input, out) = (step(&folder), folder.path().join("out.exr"));
+    let files = ["--input", text(&input), "--out", text(&out), "--shape", "hardware"];
+    let refused = |more: &[&str]| complaint(&[&arguments[..], &files, more].concat(), &folder);
+    insta::assert_snapshot!(refused(&["--kernel", "separable"]), @r"
+    error: --shape: this kernel shares its work in one way on every device
+      = help: leave out --shape, or take --path compute and a kernel `interleaved`
+    ");
+    insta::assert_snapshot!(refused(&["--path", "fragment"]), @r"
+    error: --shape: fragment shaders share their work in one way
+      = help: leave out --shape, or take --path compute and a kernel `interleaved`
+    ");
+}
+
 /// A file with the factor `scale` everywhere.
 fn scale(folder: &TempDir, scale: f32) -> PathBuf {
     let path = folder.path().join("scale.exr");

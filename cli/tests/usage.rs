@@ -68,6 +68,7 @@ fn an_argument_out_of_range_is_a_usage_error_that_says_the_range() {
         (&["render", "--out", "a.png", "--kernel", "separable:16"], "an odd number of taps from 3 to 65"),
         (&["contact-sheet", "--out", "a.png", "--kernel", "dense:9"], "no number of taps"),
         (&["render", "--out", "a.png", "--path", "ray"], "possible values: compute, fragment"),
+        (&["render", "--out", "a.png", "--shape", "round"], "possible values: hardware, software"),
         (&["render", "--out", "a.png", "--debug", "noise"], "possible values: taps, filter-radius"),
         (&["render", "--out", "a.png", "--debug", "taps", "--no-subsurface"], "cannot be used with"),
         (&["bench", "kernels", "--input", "a.exr"], "--mm-per-pixel"),

@@ -8,7 +8,7 @@ use subsurface_profile::{Channel, EdgeSpread, Medium, Model, RadialProfile};
 
 use subsurface_quality::NoProfile;
 use subsurface_quality::gather::curve::{
-    Knots, NODES, NodesOf, STEPS as TEXELS, fraction, node_albedo, quantiles,
+    Knots, NODES, NodesOf, STEPS as TEXELS, fraction, line_quantiles, node_albedo, quantiles,
 };
 
 use crate::material::{Material, MaterialSet};
@@ -24,7 +24,8 @@ pub(crate) struct CurvePlace {
     pub(crate) first_curve: u32,
     /// Rows: one per node of the surface albedo, one per channel, or the former for each channel.
     pub(crate) curve_count: u32,
-    /// Row of the edge-spread function of node 0; 0 where the kernel reads none.
+    /// Row of the edge-spread function of node 0; 0 where the kernel reads none. Behind those of all nodes are as many of
+    /// the distances within which a line keeps a share of its light.
     pub(crate) first_edge: u32,
     /// Distance from the edge at which the rows of the edge-spread function end, per unit of the model's length.
     pub(crate) edge_reach: f64,
@@ -73,6 +74,11 @@ impl Curves {
                 let knots: Vec<Knots> =
                     profiles.nodes.iter().map(|profile| edge(&**profile, place.edge_reach)).collect();
                 edges.extend(profiles.rows(&knots));
+                let lines: Vec<Knots> = knots
+                    .iter()
+                    .map(|spread| line_quantiles(&spread.map(|inside| 1.0 - inside), place.edge_reach))
+                    .collect();
+                edges.extend(profiles.rows(&lines));
             }
             places.push(place);
         }
@@ -125,7 +131,7 @@ impl Curves {
     }
 }
 
-/// A number of rows, or of their texels: at most 2 × 48 rows for each of 2048 models.
+/// A number of rows, or of their texels: at most 3 × 48 rows for each of 2048 models.
 fn row_number(rows: usize) -> u32 {
     u32::try_from(rows).expect("2048 models have fewer than 2^32 texels")
 }

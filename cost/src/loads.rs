@@ -66,11 +66,18 @@ struct Counter<'m> {
     estimator: Estimator,
 }
 
+/// An argument that is known.
+#[derive(Clone, Copy, Debug)]
+enum Argument {
+    Texture(Handle<GlobalVariable>),
+    Bool(bool),
+}
+
 /// A function that is counted: its textures may be arguments.
 struct Frame<'f> {
     function: &'f Function,
     name: &'f str,
-    arguments: &'f [Option<Handle<GlobalVariable>>],
+    arguments: &'f [Option<Argument>],
     /// Loops that were met.
     loops: usize,
 }
@@ -86,7 +93,7 @@ impl Counter<'_> {
         &self,
         function: &Function,
         name: &str,
-        arguments: &[Option<Handle<GlobalVariable>>],
+        arguments: &[Option<Argument>],
     ) -> Result<Option<Loads>, Failure> {
         let mut frame = Frame { function, name, arguments, loops: 0 };
         Ok(self.block(&mut frame, &function.body)?.loads)
@@ -116,7 +123,8 @@ impl Counter<'_> {
             }
             Statement::Call { function, arguments, .. } => {
                 let callee = &self.module.functions[*function];
-                let arguments: Vec<_> = arguments.iter().map(|&argument| global(frame, argument)).collect();
+                let arguments: Vec<_> =
+                    arguments.iter().map(|&argument| self.argument(frame, argument)).collect();
                 let name = callee.name.as_deref().unwrap_or_default();
                 on(self.function(callee, name, &arguments)?)
             }
@@ -124,7 +132,7 @@ impl Counter<'_> {
             Statement::If { condition, accept, reject } => {
                 let accepted = self.block(frame, accept)?;
                 let rejected = self.block(frame, reject)?;
-                Ok(match self.constant_bool(frame.function, *condition) {
+                Ok(match self.constant_bool(frame, *condition) {
                     Some(true) => accepted,
                     Some(false) => rejected,
                     None => dearer(accepted, rejected),
@@ -218,17 +226,26 @@ impl Counter<'_> {
         }
     }
 
-    fn constant_bool(&self, function: &Function, condition: Handle<Expression>) -> Option<bool> {
+    fn argument(&self, frame: &Frame<'_>, expression: Handle<Expression>) -> Option<Argument> {
+        let texture = global(frame, expression).map(Argument::Texture);
+        texture.or_else(|| self.constant_bool(frame, expression).map(Argument::Bool))
+    }
+
+    fn constant_bool(&self, frame: &Frame<'_>, condition: Handle<Expression>) -> Option<bool> {
         let literal = |expression: &Expression| match expression {
             Expression::Literal(Literal::Bool(value)) => Some(*value),
             _ => None,
         };
-        match &function.expressions[condition] {
+        match &frame.function.expressions[condition] {
+            Expression::FunctionArgument(place) => match frame.arguments.get(*place as usize) {
+                Some(Some(Argument::Bool(value))) => Some(*value),
+                _ => None,
+            },
             Expression::Constant(constant) => {
                 literal(&self.module.global_expressions[self.module.constants[*constant].init])
             }
             Expression::Unary { op: naga::UnaryOperator::LogicalNot, expr } => {
-                self.constant_bool(function, *expr).map(|value| !value)
+                self.constant_bool(frame, *expr).map(|value| !value)
             }
             other => literal(other),
         }
@@ -239,7 +256,10 @@ impl Counter<'_> {
 fn global(frame: &Frame<'_>, expression: Handle<Expression>) -> Option<Handle<GlobalVariable>> {
     match frame.function.expressions[expression] {
         Expression::GlobalVariable(global) => Some(global),
-        Expression::FunctionArgument(place) => frame.arguments.get(place as usize).copied().flatten(),
+        Expression::FunctionArgument(place) => match frame.arguments.get(place as usize) {
+            Some(Some(Argument::Texture(global))) => Some(*global),
+            _ => None,
+        },
         _ => None,
     }
 }

@@ -148,7 +148,7 @@ impl Estimator {
         matches!(self, Self::Interleaved { .. })
     }
 
-    /// Whether it reads the edge-spread curves of the profiles beside their quantiles.
+    /// Whether it reads the edge-spread curves of the profiles beside their quantiles, and the reach of lines.
     #[must_use]
     pub const fn reads_edge_curves(self) -> bool {
         matches!(self, Self::Separable { .. })

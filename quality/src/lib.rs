@@ -7,25 +7,33 @@
 //! # The error
 //!
 //! A family of pictures whose diffusion is known exactly is drawn by an f64 twin of each kernel. Every material is tried
-//! on all of them; the irradiance is white (1 in all channels) or black (0):
+//! on all of them, with its own surface albedo, and every model with a surface albedo of 1, which a scene without textures
+//! has; the irradiance is white (1 in all channels) or black (0):
 //!
 //! - *step edge*: a plane, one half of it white;
 //! - *line*: a white line, one pixel wide, on a black plane;
 //! - *disc*: a white disc on a black plane, its radius half as long again as the mean radius of the profile;
-//! - *crease*: two planes that meet at a right angle, each 45° from the view axis, one of them white.
+//! - *crease*: two planes that meet at a right angle, each 45° from the view axis, one of them white;
+//! - *pixel*: one white pixel on a black plane;
+//! - *pan*: a white disc with a radius of 3.5 pixels that moves by one to three pixels along both axes: what matters is how
+//!   much the result differs from what it was before;
+//! - *ball*: a ball of eight mean radii in stripes of light of three, with nothing behind its rim;
+//! - *frame*: a step edge in a frame of two mean radii, beyond which nothing is seen.
 //!
-//! Each is seen at three footprints: the mean radius of the widest channel's profile spans 1, 3 and 10 pixels.
+//! Each is seen at footprints where the mean radius of the widest channel's profile spans 1, 3 and 10 pixels, but the ball
+//! at 3 alone, and the frame at 10, 30 and 100; the step edge is seen at 30 and 100 pixels too, as close up.
 //!
-//! The test region of a picture reaches two mean radii and three pixels beyond the feature, on both sides, and consists of
-//! squares of 4×4 pixels. Four pixels are the period of everything that kernels lay on the pixel grid (blocks of two, lattices
-//! of two blocks), so each square holds every phase once; the feature takes every phase as well, in each square or, where
-//! there are many, from square to square. Around the larger discs 16 of the squares are a sample.
+//! The test region of a picture reaches two mean radii and three pixels beyond the feature, on both sides; of ball and frame
+//! it is all that shows a surface. It consists of squares of 4×4 pixels. Four pixels are the period of everything that
+//! kernels lay on the pixel grid (blocks of two, lattices of two blocks), so each square holds every phase once; the feature
+//! takes every phase as well, in each square or, where there are many, from square to square. Of more than 24 squares in a
+//! row, more than 16 around what is lit (8 for the disc that moves) or more than 64 on a ball, only as many are taken.
 //!
 //! The error of one picture is the root mean square over the test region of the difference between kernel and exact
 //! result, in one channel. The error of a kernel is the largest over pictures, footprints, channels and materials. As the
 //! white level is 1, it is a fraction of the step's height. The largest difference of a single pixel is stated beside it.
 //!
-//! The exact result is what an infinite number of taps gives: the profile integrated over each lit pixel. On the crease
+//! The exact result is what an infinite number of taps gives: the profile integrated over each lit pixel. On crease and ball
 //! light travels along the straight line between two pixels' centres, which is what `Dense` takes it for too. What a kernel
 //! returns to the centre (`rejected: ReturnedToCentre`) is returned there as well; rejection by normals is left out on
 //! both sides, since nothing in these pictures is told apart by normals alone.

@@ -44,6 +44,19 @@ impl Appearance {
         };
         Self { model, lengths, surface_albedo }
     }
+
+    /// The same where it is white, as in scenes without textures of the surface albedo; `None` for a model that does not
+    /// depend on it.
+    fn of_white(material: &Material<'_>) -> Option<Self> {
+        let mut white = Self::of(&Material { surface_albedo: [1.0; 3], ..*material });
+        match material.model.dependence() {
+            Dependence::Channel => return None,
+            // Channels of other lengths have the same shape: one stands for all.
+            Dependence::Medium => white.lengths = [1.0; 3],
+            Dependence::MediumAndChannel => {}
+        }
+        Some(white)
+    }
 }
 
 /// The profiles of one material. Its unit of length is arbitrary.
@@ -71,12 +84,14 @@ pub(crate) struct ChannelOptics {
 }
 
 impl Optics {
-    /// The optics of a list of materials, those that look alike once.
+    /// The optics of a list of materials, then of their models where they are white; those that look alike once.
     pub(crate) fn of_all(materials: &[Material<'_>]) -> Result<Vec<Self>, NoProfile> {
         let mut known: Vec<Appearance> = Vec::new();
         let mut optics = Vec::new();
-        for (number, material) in materials.iter().enumerate() {
-            let appearance = Appearance::of(material);
+        let own = materials.iter().map(Appearance::of).enumerate();
+        let white = materials.iter().map(Appearance::of_white).enumerate();
+        let white = white.filter_map(|(number, white)| Some((number, white?)));
+        for (number, appearance) in own.chain(white) {
             if known.contains(&appearance) {
                 continue;
             }
@@ -96,7 +111,8 @@ impl Optics {
         let channel = |channel: Channel| -> Result<ChannelOptics, NoProfile> {
             let surface_albedo = appearance.surface_albedo[channel.index()];
             let exact = profile(channel, surface_albedo)?;
-            let curve = quantiles(&*profile(channel, surface_albedo.min(LARGEST_SURFACE_ALBEDO))?);
+            let baked = profile(channel, surface_albedo.min(LARGEST_SURFACE_ALBEDO))?;
+            let curve = quantiles(&*baked);
             // Edge curves of all surface albedos, or of all channels, end where the widest does.
             let reach_of = |channel: Channel| {
                 (0..NODES).map(node_albedo).try_fold(0.0_f64, |reach, surface_albedo| {
@@ -109,7 +125,7 @@ impl Optics {
                     edge_reach = edge_reach.max(reach_of(other)?);
                 }
             }
-            let edge_curve = EdgeCurve::new(|distance| beyond_line(&*exact, distance), edge_reach);
+            let edge_curve = EdgeCurve::new(|distance| beyond_line(&*baked, distance), edge_reach);
             let mean = mean_radius(&curve);
             // From a twentieth of the smallest pixel to the last column of the largest; power laws go on beyond.
             let (first, last) = (0.03 * mean, 600.0 * mean);

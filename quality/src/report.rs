@@ -10,8 +10,8 @@ use crate::quality::Tier;
 pub struct QualityReport {
     /// The cheapest kernel whose error is within what was asked for.
     pub estimator: Estimator,
-    /// Its error: root mean square over the pixels of a picture, the largest over a step edge, a line of one pixel, a
-    /// disc and a crease, at mean radii of 1, 3 and 10 pixels, over channels and materials; a fraction of the white
+    /// Its error: root mean square over the pixels of a picture, the largest over the pictures that this crate's
+    /// documentation lists, at mean radii of 1 to 100 pixels, over channels and materials; a fraction of the white
     /// level, rounded up to three digits.
     pub error: f64,
     /// Largest difference of any one pixel in those pictures, a fraction of the white level.
@@ -26,7 +26,7 @@ pub struct QualityReport {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct PictureReport {
-    /// `step edge`, `line`, `disc` or `crease`.
+    /// `step edge`, `line`, `disc`, `crease`, `pixel`, `pan`, `ball` or `frame`.
     pub name: &'static str,
     /// Mean radius of the widest channel's profile, pixels.
     pub mean_radius_pixels: f64,

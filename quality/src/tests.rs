@@ -1,16 +1,17 @@
 use subsurface_profile::{Channel, EdgeSpread, Medium, Model};
 
 use super::{Device, Material, NoProfile, Quality, QualityReport, SearchError, Tier, search};
-use crate::gather::curve::quantile;
+use crate::gather::curve::{Knots, line_quantiles, quantile};
 use crate::gather::gathered::Rgb;
 use crate::gather::point::Point;
+use crate::kernels::separable::strips::beside_centre;
 use crate::kernels::twin::Twin;
 use crate::noise::interleaved_gradient_noise;
 use crate::optics::Optics;
 use crate::optics::line_spread::{beyond_line, edge_spread, line_spread};
 use crate::pictures::case::{Case, Deviation, FOOTPRINTS};
 use crate::pictures::patch::{PATCH_SIDE, Patch};
-use crate::pictures::reference::expected;
+use crate::pictures::reference;
 use crate::pictures::scene::Scene;
 use crate::report::stated;
 use crate::search::cost::{cost, counts, kinds};
@@ -57,6 +58,12 @@ fn solved(samples: &[Sample], quality: Quality, kind: Option<Estimator>) -> Qual
         .expect("a kernel within the error")
 }
 
+/// The exact result where every pixel shows a surface.
+fn expected(point: &Point<'_>, scene: Scene, patches: &[Patch]) -> Vec<Rgb> {
+    let pixels = reference::expected(point, scene, patches).into_iter();
+    pixels.map(|pixel| pixel.expect("it shows a surface")).collect()
+}
+
 /// Over all cases.
 fn deviation(cases: &mut [Case<'_>], kernel: Estimator) -> Deviation {
     let deviations = cases.iter_mut().map(|case| case.deviation(kernel).expect("it has a twin"));
@@ -94,7 +101,8 @@ fn light_of_an_edge_is_that_of_the_profile_crate() {
 fn edge_curves_reach_as_far_as_filters_do() {
     for stem in Model::PUBLISHED {
         for surface_albedo in [0.0, 0.33, 0.6, 0.999] {
-            let [optics] = &optics_of(&[published(stem, [1.3, 0.95, 0.67], [surface_albedo; 3])])[..] else {
+            let [optics, ..] = &optics_of(&[published(stem, [1.3, 0.95, 0.67], [surface_albedo; 3])])[..]
+            else {
                 panic!("{stem}: one material");
             };
             for channel in &optics.channels {
@@ -160,7 +168,7 @@ fn a_crease_without_depth_is_a_step_edge() {
     let flat = Rejection { by_distance: false, ..Rejection::default() };
     let drawn = |scene, rejection| {
         let cases = Case::of_footprint(&optics[0], 3.0, rejection);
-        let mut case = cases.into_iter().find(|case| case.scene == scene).expect("one of the four");
+        let mut case = cases.into_iter().find(|case| case.scene == scene).expect("one of them");
         case.deviation(Estimator::Interleaved { taps: 4 }).expect("it has a twin")
     };
     assert_eq!(drawn(Scene::Crease, flat), drawn(Scene::StepEdge, flat));
@@ -178,7 +186,7 @@ fn a_crease_is_the_sum_of_its_pixels() {
         let [x, _] = patch.in_scene(pixel);
         let (mut light, mut weight) = ([0.0; 3], [0.0; 3]);
         for (right, down) in (-30..=30).flat_map(|right| (-30..=30).map(move |down| (right, down))) {
-            let depth = Scene::Crease.depth(x + right) - Scene::Crease.depth(x);
+            let depth = Scene::Crease.depth(x + right, down) - Scene::Crease.depth(x, 0);
             let share = if (right, down) == (0, 0) {
                 // The disc with the area of a pixel.
                 point.radial_cdf(point.pixel / std::f64::consts::PI.sqrt())
@@ -209,7 +217,7 @@ fn a_crease_is_the_sum_of_its_pixels() {
 
 #[test]
 fn a_patch_holds_every_phase_once() {
-    for scene in Scene::all(3.0) {
+    for scene in FOOTPRINTS.into_iter().flat_map(Scene::all) {
         for patch in Patch::all(scene, scene.reach(3.0)) {
             let mut phases: Vec<_> =
                 patch.pixels().map(|pixel| pixel.map(|place| place.rem_euclid(PATCH_SIDE))).collect();
@@ -227,15 +235,164 @@ fn regions_hold_the_feature_and_what_is_beyond_it() {
             let places: Vec<[i32; 2]> = Patch::all(scene, scene.reach(footprint))
                 .into_iter()
                 .flat_map(|patch| patch.pixels().map(move |pixel| patch.in_scene(pixel)))
+                .filter(|[x, y]| scene.covers(*x, *y))
                 .collect();
             let lit = places.iter().filter(|[x, y]| scene.light(*x, *y) > 0.0).count();
             // The line is one pixel wide; a disc takes a tenth of its region.
             assert!(lit > 0 && lit < places.len(), "{scene:?} at {footprint}: {lit} lit");
+            // The columns on both sides of an edge, where steps are.
+            for column in [-2, -1, 0, 1] {
+                let is_there = places.iter().any(|[x, _]| *x == column);
+                assert!(is_there || !scene.has_equal_rows(), "{scene:?} at {footprint}: column {column}");
+            }
             assert!(
                 places.iter().flatten().all(|place| f64::from(place.abs()) <= scene.reach(footprint) + 6.0)
             );
         }
     }
+}
+
+#[test]
+fn what_is_panned_shows_the_same_pixels_at_every_step() {
+    let patches = Patch::all(Scene::Pan, Scene::Pan.reach(3.0));
+    let pixels: Vec<_> =
+        patches.iter().flat_map(|patch| patch.pixels().map(move |pixel| (patch, pixel))).collect();
+    let mut moved = 0;
+    for (place, (patch, pixel)) in pixels.iter().enumerate() {
+        let Some(before) = Patch::before_pan(place) else { continue };
+        let (still, was) = pixels[before];
+        assert_eq!(still.in_scene(was), patch.in_scene(*pixel));
+        assert_ne!(was.map(|x| x.rem_euclid(PATCH_SIDE)), pixel.map(|x| x.rem_euclid(PATCH_SIDE)));
+        moved += 1;
+    }
+    assert_eq!(4 * moved, 3 * pixels.len());
+}
+
+#[test]
+fn a_ball_in_the_light_of_a_constant_is_as_bright() {
+    // Energy is renormalized, at the rim too.
+    let optics = optics_of(&[skin()]);
+    let point = Point::new(&optics[0], 3.0, true, false);
+    let all_lit = Scene::Ball { radius: 12.0, stripe: 1e3 };
+    let patches = Patch::all(all_lit, all_lit.reach(3.0));
+    let right: Vec<_> = reference::expected(&point, all_lit, &patches);
+    for kind in kinds() {
+        let twin = Twin::new(kind, point).expect("it has a twin");
+        let drawn = patches.iter().flat_map(|patch| twin.draw(all_lit, *patch));
+        for (drawn, right) in drawn.zip(&right) {
+            let Some(right) = right else { continue };
+            for channel in 0..3 {
+                assert!(
+                    (right[channel] - 1.0).abs() < 1e-9 && (drawn[channel] - 1.0).abs() < 1e-9,
+                    "{kind}: {drawn:?}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn a_frame_without_end_is_a_step_edge() {
+    let optics = optics_of(&[skin()]);
+    let point = Point::new(&optics[0], 3.0, true, false);
+    let patches = Patch::all(Scene::StepEdge, 9.0);
+    let edge = expected(&point, Scene::StepEdge, &patches);
+    let frame = expected(&point, Scene::Frame { half: 100_000 }, &patches);
+    for (edge, frame) in edge.iter().zip(&frame) {
+        for channel in 0..3 {
+            // What of the profile's tail lies beyond.
+            assert!((edge[channel] - frame[channel]).abs() < 1e-4, "{edge:?}, {frame:?}");
+        }
+    }
+}
+
+#[test]
+fn a_frame_is_the_sum_of_its_columns() {
+    let optics = optics_of(&[skin()]);
+    let scene = Scene::Frame { half: 2 };
+    for returned in [false, true] {
+        let point = Point::new(&optics[0], 10.0, true, returned);
+        let patches = Patch::all(Scene::Line, 8.0);
+        // A lit column by its distance.
+        let mut lines = std::collections::BTreeMap::new();
+        for (patch, drawn) in patches.iter().zip(expected(&point, Scene::Line, &patches).chunks(16)) {
+            for (pixel, light) in patch.pixels().zip(drawn) {
+                lines.insert(patch.in_scene(pixel)[0].abs(), light[0]);
+            }
+        }
+        let frame = reference::expected(&point, scene, &Patch::all(scene, 2.0));
+        let places = Patch::all(scene, 2.0).into_iter();
+        let columns = places.flat_map(|patch| patch.pixels().map(move |pixel| patch.in_scene(pixel)[0]));
+        let mut shown = 0;
+        for (x, found) in columns.zip(frame) {
+            let Some(found) = found else {
+                assert!(!(-2..2).contains(&x));
+                continue;
+            };
+            let from = |column: i32| lines[&(x - column).abs()];
+            let (lit, dark) = (from(0) + from(1), from(-1) + from(-2));
+            let own = f64::from(u8::from(x >= 0));
+            let right = if returned { lit + (1.0 - lit - dark) * own } else { lit / (lit + dark) };
+            assert!((found[0] - right).abs() < 1e-9, "column {x}: {found:?}, {right}");
+            shown += 1;
+        }
+        assert!(shown >= 16);
+    }
+}
+
+#[test]
+fn strips_adjoin_and_hold_all_light() {
+    for stem in Model::PUBLISHED {
+        let optics = optics_of(&[published(stem, [1.3, 0.95, 0.67], [0.83, 0.64, 0.55])]);
+        for mean_radius in [0.5, 3.0, 30.0, 300.0] {
+            let point = Point::new(&optics[0], mean_radius, true, false);
+            let widest = |offset: f64| point.beyond_line(offset * point.pixel)[optics[0].widest];
+            let beyond_centre = 2.0 * widest(0.5);
+            for count in [1, 2, 8, 32] {
+                let strips: Vec<_> = beside_centre(&point, beyond_centre, count).collect();
+                let mut start = 0.5;
+                for (number, strip) in strips.iter().enumerate() {
+                    assert_eq!(strip.start, start, "{stem}: they adjoin");
+                    assert!(strip.end >= strip.start + 1.0, "{stem}: {strip:?}");
+                    assert!(
+                        strip
+                            .lines
+                            .iter()
+                            .all(|line| *line == line.trunc() && (strip.start..=strip.end).contains(line)),
+                        "{stem}: {strip:?}"
+                    );
+                    let is_last = number + 1 == strips.len();
+                    assert!(is_last || strip.end.fract() == 0.5, "{stem}: {strip:?} ends within a pixel");
+                    // A share more than its own is that of a pixel, or of the half pixels that its ends are rounded by.
+                    let share = widest(strip.start) - if is_last { 0.0 } else { widest(strip.end) };
+                    let pixel = widest(strip.start) - widest(strip.start + 1.0);
+                    let own = beyond_centre / (2.0 * f64::from(count));
+                    assert!(share < own + pixel + 1e-2, "{stem}: {share} of {own} in {strip:?}");
+                    start = strip.end;
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn lines_of_a_plateau_and_of_an_end_are_found() {
+    // Half of the light at the centre, none up to the middle of the curve, the rest beyond; and none from there on.
+    let plateau: Knots =
+        std::array::from_fn(|knot| if knot < 32 { 0.25 } else { 0.25 * (64 - knot) as f64 / 32.0 });
+    let ended: Knots =
+        std::array::from_fn(|knot| if knot < 32 { 0.5 * (32 - knot) as f64 / 32.0 } else { 0.0 });
+    for knots in [plateau, ended] {
+        let lines = line_quantiles(&knots, 7.0);
+        assert!(
+            lines.is_sorted() && lines.iter().all(|distance| (0.0..=7.0).contains(distance)),
+            "{lines:?}"
+        );
+    }
+    // Before the share at the centre is used up.
+    assert_eq!(line_quantiles(&plateau, 7.0)[8], 0.0);
+    // All light lands up to where the curve comes to an end.
+    assert_eq!(line_quantiles(&ended, 7.0)[64], 7.0 / 16.0);
 }
 
 #[test]
@@ -361,8 +518,8 @@ fn the_device_says_what_is_cheap() {
     assert!(cost(few, Device::Software) < cost(separable, Device::Software));
     for gpu in [Device::Rdna, Device::Gcn] {
         assert!(cost(interleaved, gpu) < cost(few, gpu), "{gpu:?}");
-        // Three taps in two directions are no dearer than seven.
-        assert!(cost(separable, gpu) < cost(few.with_taps(7), gpu), "{gpu:?}");
+        // Three taps in two directions are no dearer than eight.
+        assert!(cost(separable, gpu) < cost(few.with_taps(8), gpu), "{gpu:?}");
     }
     assert_eq!(cost(Estimator::Dense, Device::Rdna), f64::INFINITY);
 }
@@ -415,8 +572,9 @@ fn a_named_kernel_is_kept() {
 fn materials_that_look_alike_are_tried_once() {
     let twice_as_large = sample([2.60, 1.90, 1.34], [0.83, 0.64, 0.55]);
     let other = sample([1.30, 0.95, 0.67], [0.83, 0.64, 0.5]);
-    assert_eq!(optics_of(&[skin(), twice_as_large, skin()]).len(), 1);
-    assert_eq!(optics_of(&[skin(), other.clone()]).len(), 2);
+    // And the model where it is white.
+    assert_eq!(optics_of(&[skin(), twice_as_large, skin()]).len(), 1 + 1);
+    assert_eq!(optics_of(&[skin(), other.clone()]).len(), 2 + 1);
     let gaussian = |of: Sample| published("gaussian_skin", of.mean_free_path_mm, of.surface_albedo);
     assert_eq!(optics_of(&[gaussian(skin()), gaussian(other)]).len(), 1);
 }
@@ -441,8 +599,8 @@ fn every_published_profile_has_an_error() {
         for rejected in [Rejected::Renormalized, Rejected::ReturnedToCentre] {
             let mut cases = Case::all(&optics, Rejection { rejected, ..Rejection::default() });
             let Deviation { error, worst_pixel } = deviation(&mut cases, Estimator::Interleaved { taps: 16 });
-            // Measured: 0.006 to 0.010, and 0.05 for the pixels.
-            assert!(error > 1e-4 && error < 0.02 && worst_pixel < 0.1, "{stem}: {error}, {worst_pixel}");
+            // Measured: 0.008 to 0.017, and 0.11 for the pixels.
+            assert!(error > 1e-4 && error < 0.02 && worst_pixel < 0.13, "{stem}: {error}, {worst_pixel}");
         }
     }
 }

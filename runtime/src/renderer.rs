@@ -16,6 +16,7 @@ use crate::pass::subsurface::{Path, SubsurfaceDescriptor, SubsurfaceInputs, Subs
 use crate::target::Target;
 use crate::timestamps::PassTimer;
 use crate::wgpu;
+use subsurface_kernel::ComputeShape;
 
 const NAME: &str = "Renderer";
 
@@ -35,6 +36,8 @@ pub struct RendererDescriptor<'a> {
     pub format: wgpu::TextureFormat,
     /// Path of the subsurface pass; by default the best that the device has.
     pub path: Option<Path>,
+    /// How the compute path of the subsurface pass shares its work; by default what suits the device.
+    pub shape: Option<ComputeShape>,
     /// Where compiled pipelines are kept; by default nowhere.
     pub pipeline_cache: Option<&'a wgpu::PipelineCache>,
     /// Where the passes write their times: a timer of four passes, [`Renderer::PASSES`]. By default nowhere.
@@ -47,6 +50,7 @@ impl Default for RendererDescriptor<'_> {
             label: None,
             format: wgpu::TextureFormat::Rgba8UnormSrgb,
             path: None,
+            shape: None,
             pipeline_cache: None,
             timer: None,
         }
@@ -102,7 +106,7 @@ impl Renderer {
         kernel: &LoadedKernel,
         descriptor: &RendererDescriptor<'_>,
     ) -> Result<Self, PassError> {
-        let RendererDescriptor { format, path, pipeline_cache, timer, .. } = *descriptor;
+        let RendererDescriptor { format, path, shape, pipeline_cache, timer, .. } = *descriptor;
         let names = ["ShadowPass", "GBufferPass", "SubsurfacePass", "CompositePass"];
         let labels =
             names.map(|name| descriptor.label.map_or(name.to_owned(), |label| format!("{label} {name}")));
@@ -125,6 +129,7 @@ impl Renderer {
                 format: GBuffer::COLOUR_FORMAT,
                 stencil: Some(GBuffer::DEPTH_STENCIL_FORMAT),
                 path,
+                shape,
                 pipeline_cache,
                 timestamps: timestamps(2),
                 ..Default::default()

@@ -19,7 +19,8 @@ struct MaterialSurface {
     first_curve: u32,
     /// Number of its curves: one per node of the surface albedo, or one per channel.
     curve_count: u32,
-    /// First row of the edge curves of its profile; 0 where the kernel reads none.
+    /// First row of the edge curves of its profile, behind which stand as many line curves; 0 where the kernel reads
+    /// none.
     first_edge: u32,
     /// Distance from an edge, in lengths of the material, at which the edge curves end; 0 where the kernel reads none.
     edge_reach: f32,

@@ -16,5 +16,5 @@ fn first_fragment(@builtin(position) position: vec4f) -> @location(0) vec2u {
 @fragment
 fn subsurface_fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let pixel = viewport_position(subsurface_view, position);
-    return blur_second(pixel, irradiance_at(pixel), intermediate_texture);
+    return blur_second(pixel, intermediate_texture);
 }

@@ -20,6 +20,5 @@ fn subsurface_compute(@builtin(workgroup_id) group: vec3u, @builtin(local_invoca
     if tile == 0u || !is_inside(pixel) {
         return;
     }
-    let texel = irradiance_at(pixel);
-    textureStore(diffused_target, texture_position(pixel), blur_second(pixel, texel, intermediate_source));
+    textureStore(diffused_target, texture_position(pixel), blur_second(pixel, intermediate_source));
 }

@@ -118,6 +118,7 @@ pub const KERNELS: &[Module] = modules![
     "kernels/separable",
     "kernels/separable/edge_spread",
     "kernels/separable/packed_line",
+    "kernels/separable/strips",
     "kernels/separable/taps",
     "kernels/single_stage",
 ];

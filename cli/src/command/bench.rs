@@ -1,7 +1,7 @@
 //! `subsurface bench`.
 
 use super::diffuse::read;
-use super::kernel::PathName;
+use super::kernel::RouteArguments;
 use super::render::DEFAULT_MATERIAL;
 use super::view::{MeshArguments, load_scene};
 use super::{material_set, number, output};
@@ -19,7 +19,6 @@ use clap::{Args, Parser, Subcommand, value_parser};
 use std::ffi::OsString;
 use std::path::PathBuf;
 use subsurface_codegen::{Compilation, Estimator};
-use subsurface_runtime::Path;
 
 /// Measure kernels: errors and times side by side.
 #[derive(Debug, Args)]
@@ -97,9 +96,9 @@ pub struct KernelsArguments {
     /// Irradiance that PSNR is relative to; by default the largest value of each reference picture.
     #[arg(long, value_name = "X", value_parser = number::white, allow_hyphen_values = true)]
     pub white: Option<f64>,
-    /// Whether compute or fragment shaders diffuse; by default compute shaders where the device has them.
-    #[arg(long, value_enum)]
-    pub path: Option<PathName>,
+    /// Which shaders diffuse.
+    #[command(flatten)]
+    pub route: RouteArguments,
     /// Also write all numbers as CSV, unrounded; `-` prints that in place of the tables.
     #[arg(long, value_name = "FILE.csv")]
     pub csv: Option<PathBuf>,
@@ -182,8 +181,8 @@ pub fn run_kernels(arguments: &KernelsArguments, more: Vec<Box<dyn Contender>>) 
         cases.iter_mut().for_each(|case| case.buffers.surface_albedo = None);
     }
     let contenders: Vec<Box<dyn Contender>> = ours(&arguments.kernels).chain(more).collect();
-    let path = arguments.path.map(Path::from);
-    let options = Options { rounds: arguments.repeats, path, white: arguments.white };
+    let options =
+        Options { rounds: arguments.repeats, route: arguments.route.chosen(), white: arguments.white };
     let mut reports = Vec::new();
     for subject in &subjects {
         for case in &cases {

@@ -88,7 +88,7 @@ pub fn run(arguments: &DiffuseArguments) -> Result<(), Failure> {
     }
     let picture = {
         let _spinner = Spinner::new("diffusing");
-        draw::diffuse(&buffers, &materials, scale, arguments.kernel.path(), arguments.frame_index)?
+        draw::diffuse(&buffers, &materials, scale, arguments.kernel.route.chosen(), arguments.frame_index)?
     };
     exr::write_exr(&arguments.out, &picture)?;
     say!("{}", arguments.out.display());

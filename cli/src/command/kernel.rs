@@ -1,13 +1,13 @@
-//! `--kernel`, `--taps` and `--path`, as several commands take them.
+//! `--kernel`, `--taps`, `--path` and `--shape`, as several commands take them.
 
 use super::material_set;
-use crate::draw::LARGEST_TAPS;
+use crate::draw::{LARGEST_TAPS, Route};
 use crate::failure::Failure;
 use crate::suggestion::suggest;
 use clap::{Args, ValueEnum, value_parser};
 use subsurface_codegen::{Compilation, Compiler, Estimator};
 use subsurface_runtime::EstimatorError;
-use subsurface_runtime::Path;
+use subsurface_runtime::{ComputeShape, Path};
 
 /// Which kernel diffuses, and how.
 #[derive(Clone, Copy, Debug, Args)]
@@ -21,9 +21,46 @@ pub struct KernelArguments {
     /// Taps per pixel, instead of the kernel's own number.
     #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..=i64::from(LARGEST_TAPS)))]
     pub taps: Option<u32>,
+    /// Which shaders diffuse.
+    #[command(flatten)]
+    pub route: RouteArguments,
+}
+
+/// Which shaders diffuse.
+#[derive(Clone, Copy, Debug, Args)]
+pub struct RouteArguments {
     /// Whether compute or fragment shaders diffuse; by default compute shaders where the device has them.
     #[arg(long, value_enum)]
     pub path: Option<PathName>,
+    /// How the compute shaders of interleaved share their work; by default as suits the kind of device. The pictures are
+    /// alike.
+    #[arg(long, value_enum)]
+    pub shape: Option<ShapeName>,
+}
+
+impl RouteArguments {
+    /// What is asked for.
+    pub(super) fn chosen(self) -> Route {
+        Route { path: self.path.map(Path::from), shape: self.shape.map(ComputeShape::from) }
+    }
+}
+
+/// A way to share the work of compute shaders.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum ShapeName {
+    /// A pixel per invocation: for GPUs.
+    Hardware,
+    /// Four pixels per invocation: for drivers that run on a CPU.
+    Software,
+}
+
+impl From<ShapeName> for ComputeShape {
+    fn from(name: ShapeName) -> Self {
+        match name {
+            ShapeName::Hardware => Self::Hardware,
+            ShapeName::Software => Self::Software,
+        }
+    }
 }
 
 /// A path through the pipeline.
@@ -70,11 +107,6 @@ impl KernelArguments {
                 with(retapped(own.estimator(), taps)?)
             }
         }
-    }
-
-    /// The path that is asked for.
-    pub(super) fn path(&self) -> Option<Path> {
-        self.path.map(Path::from)
     }
 }
 

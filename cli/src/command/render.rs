@@ -116,7 +116,7 @@ pub fn run(arguments: &RenderArguments) -> Result<(), Failure> {
     let compiler = if arguments.debug.is_some() { compiler.with_debug_views() } else { compiler };
     let materials = arguments.kernel.compile(&compiler)?;
     let material = material_set::number(&materials, &arguments.material)?;
-    let mut studio = Studio::open(&materials, arguments.kernel.path())?;
+    let mut studio = Studio::open(&materials, arguments.kernel.route.chosen())?;
     let scene = load_scene(&arguments.mesh)?;
     let drawn = {
         let _spinner = Spinner::new("drawing");

@@ -1,10 +1,11 @@
 //! The subsurface pass alone, on somebody's own buffers.
 
 use subsurface_codegen::Compilation;
-use subsurface_runtime::{Path, wgpu};
+use subsurface_runtime::wgpu;
 
 use super::buffers::{Buffers, PixelScale};
 use super::device::Device;
+use super::route::Route;
 use super::uploaded::{Precision, Uploaded};
 use super::{beyond_device, out_of_order, subsurface_pass};
 use crate::failure::Failure;
@@ -15,14 +16,15 @@ pub fn diffuse(
     buffers: &Buffers,
     materials: &Compilation,
     scale: PixelScale,
-    path: Option<Path>,
+    route: Route,
     frame_index: u32,
 ) -> Result<LinearPicture, Failure> {
     let device = Device::open()?;
     device.checked(|| {
         let uploaded = Uploaded::new(&device, buffers, materials, Precision::Single)?;
         let format = wgpu::TextureFormat::Rgba32Float;
-        let mut pass = subsurface_pass(&device, &materials.parts, format, path)?;
+        let mut pass = subsurface_pass(&device, &materials.parts, format, route)?;
+        route.check(&pass)?;
         pass.bind(&device.device, &uploaded.inputs()).map_err(|error| beyond_device(&error))?;
         let output = pass.create_output(&device.device).map_err(out_of_order)?;
         let view = scale.view(buffers.size.height).with_frame_index(frame_index);

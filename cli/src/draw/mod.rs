@@ -6,17 +6,17 @@
 mod buffers;
 pub mod device;
 mod diffuse;
+mod route;
 mod studio;
 mod uploaded;
 
 pub use buffers::{Buffers, PixelScale};
 pub use diffuse::diffuse;
+pub use route::Route;
 pub use studio::{Drawn, Frame, Shown, Studio, Timings};
 pub use uploaded::{Precision, Uploaded};
 
-use subsurface_runtime::{
-    FrameError, KernelParts, LoadedKernel, Path, SubsurfaceDescriptor, SubsurfacePass, wgpu,
-};
+use subsurface_runtime::{FrameError, KernelParts, LoadedKernel, SubsurfaceDescriptor, SubsurfacePass, wgpu};
 
 use crate::failure::Failure;
 use device::Device;
@@ -31,14 +31,14 @@ pub(crate) fn load(device: &Device, kernel: &KernelParts) -> Result<LoadedKernel
     })
 }
 
-/// The subsurface pass on a path of the caller's choice, or on the best that the device has.
+/// The subsurface pass as the caller chose, or as suits the device.
 pub(crate) fn subsurface_pass(
     device: &Device,
     kernel: &KernelParts,
     format: wgpu::TextureFormat,
-    path: Option<Path>,
+    Route { path, shape }: Route,
 ) -> Result<SubsurfacePass, Failure> {
-    let descriptor = SubsurfaceDescriptor { path, ..SubsurfaceDescriptor::new(format) };
+    let descriptor = SubsurfaceDescriptor { path, shape, ..SubsurfaceDescriptor::new(format) };
     SubsurfacePass::new(&device.device, &load(device, kernel)?, &descriptor)
         .map_err(|error| Failure::new(error.to_string(), "choose another --path, or none"))
 }

@@ -6,11 +6,12 @@ use std::time::{Duration, Instant};
 use subsurface_codegen::Compilation;
 use subsurface_runtime::{
     self as runtime, CompositeDescriptor, CompositeInputs, CompositePass, CompositeSettings, DebugView,
-    DirectionalLight, DistancePass, Extent, FrameError, GBuffer, Geometry, Object, PassTimer, Path, Renderer,
+    DirectionalLight, DistancePass, Extent, FrameError, GBuffer, Geometry, Object, PassTimer, Renderer,
     RendererDescriptor, SubsurfaceView, SurfaceDescriptor, Target, TexturePixels, Vertex, wgpu,
 };
 
 use super::device::{Device, DeviceError};
+use super::route::Route;
 use super::{beyond_device, load, out_of_order};
 use crate::failure::Failure;
 use crate::picture::{DisplayPicture, LinearPicture};
@@ -111,16 +112,19 @@ pub struct Studio {
 }
 
 impl Studio {
-    /// Opens a device and makes the pipelines; `path` is the subsurface pass's, by default what the device has.
-    pub fn open(materials: &Compilation, path: Option<Path>) -> Result<Self, Failure> {
+    /// Opens a device and makes the pipelines; `route` is the subsurface pass's.
+    pub fn open(materials: &Compilation, route: Route) -> Result<Self, Failure> {
         let device = Device::open()?;
         let timer = PassTimer::new(&device.device, &device.queue, &Renderer::PASSES).ok();
         let (renderer, linear) = device.checked(|| {
             let kernel = load(&device, &materials.parts)?;
             let timer = timer.as_ref();
-            let descriptor = RendererDescriptor { format: DISPLAY_FORMAT, path, timer, ..Default::default() };
+            let Route { path, shape } = route;
+            let descriptor =
+                RendererDescriptor { format: DISPLAY_FORMAT, path, shape, timer, ..Default::default() };
             let renderer = Renderer::new(&device.device, &kernel, &descriptor)
                 .map_err(|error| Failure::new(error.to_string(), "choose another --path, or none"))?;
+            route.check(&renderer.subsurface)?;
             let descriptor = CompositeDescriptor { format: LINEAR_FORMAT, ..Default::default() };
             Ok((renderer, CompositePass::new(&device.device, &descriptor)))
         })?;

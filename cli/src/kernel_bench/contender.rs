@@ -4,7 +4,7 @@ use super::case::Case;
 use super::goal::Goal;
 use super::subject::Subject;
 use crate::draw::device::Device;
-use crate::draw::{Uploaded, beyond_device, out_of_order, subsurface_pass};
+use crate::draw::{Route, Uploaded, beyond_device, out_of_order, subsurface_pass};
 use crate::failure::Failure;
 use subsurface_codegen::{Compilation, Estimator, OutputFormat};
 use subsurface_runtime::{FrameError, Path, SubsurfacePass, Target, wgpu};
@@ -20,8 +20,8 @@ pub struct Stage<'a> {
     pub subject: &'a Subject,
     /// The case's buffers on the device, with the subject's number.
     pub textures: &'a Uploaded,
-    /// The path to take; `None` for the best that the device has.
-    pub path: Option<Path>,
+    /// The shaders that are to diffuse.
+    pub route: Route,
 }
 
 /// A way to diffuse irradiance in screen space.
@@ -133,7 +133,7 @@ pub(super) fn kernel_run(
         OutputFormat::Rgba32Float => wgpu::TextureFormat::Rgba32Float,
         _ => wgpu::TextureFormat::Rgba16Float,
     };
-    let mut pass = subsurface_pass(stage.device, &materials.parts, format, stage.path)?;
+    let mut pass = subsurface_pass(stage.device, &materials.parts, format, stage.route)?;
     let device = stage.device;
     pass.bind(&device.device, &stage.textures.inputs()).map_err(|error| beyond_device(&error))?;
     pass.prepare(&device.queue, &stage.case.view()).map_err(out_of_order)?;

@@ -26,12 +26,11 @@ pub use score::Score;
 pub use subject::Subject;
 
 use crate::draw::device::Device;
-use crate::draw::{Precision, Uploaded};
+use crate::draw::{Precision, Route, Uploaded};
 use crate::failure::Failure;
 use crate::progress::bar;
 use std::time::{Duration, Instant};
 use subsurface_codegen::{Estimator, OutputFormat};
-use subsurface_runtime::Path;
 
 /// The kernel whose time counts as 1.
 pub const YARDSTICK: Estimator = Estimator::ImportanceSampled { taps: 17 };
@@ -44,8 +43,8 @@ pub const WITNESS: Estimator = Estimator::ImportanceSampled { taps: 1024 };
 pub struct Options {
     /// How often each contender is timed, ≥ 1; the median counts.
     pub rounds: u32,
-    /// The path of every contender; `None` for the best that the device has.
-    pub path: Option<Path>,
+    /// The shaders of every contender; a shape counts for those that have two.
+    pub route: Route,
     /// Irradiance whose square PSNR is relative to; `None` for the largest in each reference picture.
     pub white: Option<f64>,
 }
@@ -70,7 +69,7 @@ pub fn run(
 
     let materials = subject.compile(YARDSTICK, OutputFormat::Rgba16Float)?;
     let textures = Uploaded::new(device, &case.buffers_of(subject), &materials, Precision::Half)?;
-    let stage = Stage { device, case, subject, textures: &textures, path: options.path };
+    let stage = Stage { device, case, subject, textures: &textures, route: options.route };
     let pixels = case.translucent();
     let white = options.white.unwrap_or_else(|| score::largest(&reference, &pixels));
     let (mut lines, mut runs, mut declined) = (Vec::new(), Vec::new(), Vec::new());
@@ -130,7 +129,7 @@ fn single_picture(
     let format = OutputFormat::Rgba32Float;
     let materials = subject.compile(kernel, format)?;
     let textures = Uploaded::new(device, &case.buffers_of(subject), &materials, Precision::Half)?;
-    let stage = Stage { device, case, subject, textures: &textures, path: options.path };
+    let stage = Stage { device, case, subject, textures: &textures, route: options.route };
     device.checked(|| {
         let start = Instant::now();
         let run = contender::kernel_run(&stage, &materials, format)?;

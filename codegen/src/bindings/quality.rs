@@ -20,8 +20,8 @@ pub(crate) fn quality_tokens(report: &QualityReport) -> TokenStream {
     let kernel = format!(" Tap counts of this set's kernel, `{}`, by quality.", report.estimator.name());
     quote! {
         /// Error of this set's kernel: the root mean square difference from the exact result over the pixels of a
-        /// picture, as a fraction of the white level; the largest over a step edge, a line of one pixel, a disc and a
-        /// crease, where the mean radius of the profile spans 1, 3 and 10 pixels, over channels and materials.
+        /// picture, as a fraction of the white level; the largest over step edges, a line, discs, a crease, a ball and a
+        /// frame, where the mean radius of the profile spans 1 to 100 pixels, over channels and materials.
         #[allow(dead_code)]
         pub const KERNEL_ERROR: f64 = #error;
         /// Largest difference of a single pixel in the same pictures.

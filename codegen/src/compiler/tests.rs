@@ -190,7 +190,7 @@ fn every_kernel_compiles_with_every_profile() {
             let model = subsurface_profile::Model::published(stem).expect("its own list");
             if model.dependence().on_channel() { 3 } else { 16 }
         });
-        let rows = if has_edges { 2 } else { 1 } * (published.iter().sum::<u32>() + 16 + 48) + 1;
+        let rows = if has_edges { 3 } else { 1 } * (published.iter().sum::<u32>() + 16 + 48) + 1;
         assert_eq!(compilation.parts.curve_size(), [64, rows], "{kernel}");
     }
 }

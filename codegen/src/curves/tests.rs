@@ -112,6 +112,8 @@ fn edges_rise_from_one_half_and_are_what_the_profile_says() {
         let model = &set.materials[0].profile.model;
         assert_eq!(place.first_edge, place.curve_count, "{name}: edges follow the radii");
         let (radii, edges) = curves.rows.split_at(place.first_edge as usize);
+        let (edges, lines) = edges.split_at(place.curve_count as usize);
+        assert_eq!(lines.len(), edges.len(), "{name}");
         let widest = radii.iter().map(|row| knots(row, false)[TEXELS]).fold(0.0, f32::max);
         // The reach is kept in f64, and a row's last radius as a sum of two f32.
         assert!((place.edge_reach / f64::from(widest) - 1.0).abs() < 1e-6, "{name}");
@@ -135,6 +137,16 @@ fn edges_rise_from_one_half_and_are_what_the_profile_says() {
                 let expected = 1.0 - (0..steps).map(integrand).sum::<f64>() / f64::from(steps);
                 let error = f64::from(fractions[index]) - expected;
                 assert!(error.abs() < 1e-5, "{name} {node} {index}: {error}");
+            }
+            let distances = knots(&lines[node], false);
+            assert!(distances.windows(2).all(|pair| pair[1] >= pair[0]), "{name} {node}");
+            assert_eq!(distances[0], 0.0, "{name} {node}");
+            let spread = EdgeSpread::new(&*profile);
+            for index in [4, 16, 32, 48, 60] {
+                let outside = (1.0 - index as f64 / 64.0).powi(2);
+                let error = 2.0 * (1.0 - spread.at(f64::from(distances[index]))) - outside;
+                // The edge curve is straight between its 65 knots, of which narrow profiles have few.
+                assert!(error.abs() < 2e-2, "{name} {node} {index}: {error}");
             }
         }
     }
@@ -160,7 +172,7 @@ fn equal_models_share_their_rows_and_others_do_not() {
             curves.places.iter().map(|place| [place.first_curve, place.curve_count]).collect();
         assert_eq!(firsts, [[0, 16], [16, 3], [0, 16], [19, 16]]);
         let edges: Vec<u32> = curves.places.iter().map(|place| place.first_edge).collect();
-        let (expected, height) = if with_edges { ([35, 51, 35, 54], 70) } else { ([0; 4], 35) };
+        let (expected, height) = if with_edges { ([35, 67, 35, 73], 105) } else { ([0; 4], 35) };
         assert_eq!((edges, curves.size()), (expected.to_vec(), [64, height]));
     }
 }
@@ -239,13 +251,19 @@ proptest! {
         let text = material(&profile);
         let Some(set) = load_memory([("a.ron", &text)]).set else { return Ok(()) };
         let Ok(curves) = Curves::bake(&set, true) else { return Ok(()) };
-        let (radii, edges) = curves.rows.split_at(curves.places[0].first_edge as usize);
+        let place = curves.places[0];
+        let (radii, edges) = curves.rows.split_at(place.first_edge as usize);
+        let (edges, lines) = edges.split_at(place.curve_count as usize);
         for row in radii {
             prop_assert!(row.iter().all(|texel| texel.iter().all(|value| value.is_finite())), "{}", profile);
             prop_assert!(row.iter().all(|texel| texel[1] > 0.0 && texel[3] > 0.0), "{}", profile);
         }
         for row in edges {
             prop_assert!(row.iter().flatten().all(|value| (0.0..=1.0).contains(value)), "{}", profile);
+        }
+        for row in lines {
+            let distances = row.iter().flatten();
+            prop_assert!(distances.into_iter().all(|value| value.is_finite() && *value >= 0.0), "{}", profile);
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Quantile radii of a profile as the kernels read them: what `shaders/gather/curve.wgsl` finds in its texture.
 
-use subsurface_kernel::constants::{CURVE_STEPS, SMALLEST_ROOT};
+use subsurface_kernel::constants::{CURVE_STEPS, EDGE_POWER, SMALLEST_ROOT};
 use subsurface_profile::description::{Contents, Dependence};
 use subsurface_profile::{Model, RadialProfile};
 
@@ -67,6 +67,25 @@ pub fn quantiles(profile: &dyn RadialProfile) -> Knots {
             last = if radius > least { radius } else { least };
         }
         last
+    })
+}
+
+/// Distances on both sides of a line within which the share s = 1 - (1 - t)² of its light lands, t = j/64, where the
+/// share beyond a distance is `beyond` at even steps of the root of EDGE_POWER, up to `reach`, and straight between.
+pub fn line_quantiles(beyond: &Knots, reach: f64) -> Knots {
+    let mut step = 0;
+    std::array::from_fn(|index| {
+        let outside = 1.0 - fraction(index);
+        let beyond_there = 0.5 * outside * outside;
+        while step < STEPS && beyond[step + 1] > beyond_there {
+            step += 1;
+        }
+        if step == STEPS {
+            return reach;
+        }
+        let (start, end) = (beyond[step], beyond[step + 1]);
+        let part = if start > end { ((start - beyond_there) / (start - end)).clamp(0.0, 1.0) } else { 0.0 };
+        reach * ((step as f64 + part) / STEPS as f64).powi(EDGE_POWER)
     })
 }
 

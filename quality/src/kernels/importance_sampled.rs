@@ -41,13 +41,16 @@ impl<'a> ImportanceSampled<'a> {
         let [x, y] = patch.in_scene(pixel);
         let own = [scene.light(x, y); 3];
         let (sin, cos) = (TAU * interleaved_gradient_noise(pixel)).sin_cos();
-        let depth = scene.depth(x);
+        let depth = scene.depth(x, y);
         let mut gathered = Gathered::default();
         for tap in &self.taps {
             let [along, across] = tap.offset;
             let offset = [along * cos - across * sin, along * sin + across * cos];
             let [tap_x, tap_y] = pixel_at([f64::from(x), f64::from(y)], offset);
-            let apart = self.point.depth_pixels(scene.depth(tap_x) - depth);
+            if !scene.covers(tap_x, tap_y) {
+                continue;
+            }
+            let apart = self.point.depth_pixels(scene.depth(tap_x, tap_y) - depth);
             gathered.add(tap.weight(&self.point, apart), [scene.light(tap_x, tap_y); 3]);
         }
         let share = 1.0 / f64::from(u32::try_from(self.taps.len().max(1)).unwrap_or(u32::MAX));

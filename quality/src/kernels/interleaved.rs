@@ -56,30 +56,30 @@ impl<'a> Interleaved<'a> {
         let first = patch.start.map(|start| start.div_euclid(BLOCK_SIDE) - 1);
         let last = patch.start.map(|start| (start + PATCH_SIDE - 1).div_euclid(BLOCK_SIDE) + 1);
         let width = last[0] - first[0] + 1;
-        let blocks: Vec<Block> = (first[1]..=last[1])
+        let blocks: Vec<Option<Block>> = (first[1]..=last[1])
             .flat_map(|y| (first[0]..=last[0]).map(move |x| [x, y]))
             .map(|block| Block::gather(lattice, &self.block_ring, &self.point, scene, patch, block))
             .collect();
-        let block_at = |[x, y]: [i32; 2]| &blocks[((y - first[1]) * width + x - first[0]) as usize];
+        let block_at = |[x, y]: [i32; 2]| blocks[((y - first[1]) * width + x - first[0]) as usize];
         patch.pixels().map(|pixel| self.pixel(scene, patch, pixel, &block_at)).collect()
     }
 
-    fn pixel<'b>(
+    fn pixel(
         &self,
         scene: Scene,
         patch: Patch,
         pixel: [i32; 2],
-        block_at: &impl Fn([i32; 2]) -> &'b Block,
+        block_at: &impl Fn([i32; 2]) -> Option<Block>,
     ) -> Rgb {
         let [x, y] = patch.in_scene(pixel);
         let own = [scene.light(x, y); 3];
-        let depth = scene.depth(x);
+        let depth = scene.depth(x, y);
         let home = pixel.map(|place| place.div_euclid(BLOCK_SIDE));
         let [columns, rows] = pixel.map(|place| self.shares_of(place));
         let mut gathered = Gathered::default();
         for (y, row) in (-1..).zip(rows) {
             for (x, column) in (-1..).zip(columns) {
-                let block = block_at([home[0] + x, home[1] + y]);
+                let Some(block) = block_at([home[0] + x, home[1] + y]) else { continue };
                 let share = row * column * self.agreement(block.depth - depth);
                 gathered.add_share(&block.far, share);
             }

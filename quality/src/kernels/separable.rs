@@ -1,6 +1,7 @@
 //! Twin of `shaders/kernels/separable.wgsl`.
 
 pub(crate) mod edge_spread;
+pub(crate) mod strips;
 
 use std::collections::HashMap;
 use std::f64::consts::FRAC_PI_2;
@@ -13,6 +14,7 @@ use crate::gather::tap::pixel_at;
 use crate::noise::interleaved_gradient_noise;
 use crate::pictures::patch::Patch;
 use crate::pictures::scene::Scene;
+use strips::Strip;
 
 /// The taps on one side of the centre.
 #[derive(Debug)]
@@ -21,40 +23,42 @@ pub(crate) struct Separable<'a> {
     rotated: bool,
     /// Share of the centre.
     centre: Rgb,
-    taps: Vec<Strip>,
+    taps: Vec<Tap>,
     /// Whether the footprint is worth any tap.
     is_on: bool,
 }
 
-/// A tap and its mirror image.
+/// The tap of a strip, and its mirror image.
 #[derive(Clone, Copy, Debug)]
-struct Strip {
-    offset: f64,
-    /// Share of the light in the strip.
-    share: Rgb,
-    /// Share of the light beyond its tap.
-    beyond: Rgb,
+struct Tap {
+    strip: Strip,
+    /// Distance of the strip's middle.
+    middle: f64,
+    /// Light in the strip by the light beyond its middle.
+    per_beyond: Rgb,
+    /// Weight on a flat surface.
+    flat_weight: Rgb,
 }
 
 impl<'a> Separable<'a> {
     pub(crate) fn new(point: Point<'a>, taps: u32, rotated: bool) -> Self {
-        let beyond = |offset: f64| point.beyond_line(offset);
         let sides = point.footprint_taps(taps.saturating_sub(1)).div_ceil(2);
-        let offset = |tap: u32| {
-            let step = f64::from(tap) / f64::from(sides.max(1));
-            let pixels = (step * step * point.filter_radius_pixels).round_ties_even();
-            pixels.max(f64::from(tap)) * point.pixel
-        };
-        let mut inner = beyond(0.5 * offset(1));
+        let mut inner = point.beyond_line(0.5 * point.pixel);
         let centre = inner.map(|beyond| 1.0 - 2.0 * beyond);
-        let strips = (1..=sides).map(|tap| {
-            let next = 0.5 * (offset(tap) + offset(tap + 1));
-            let outer = if tap == sides { [0.0; 3] } else { beyond(next) };
-            let share = std::array::from_fn(|channel| inner[channel] - outer[channel]);
+        let taps = strips::beside_centre(&point, 2.0 * inner[point.optics.widest], sides);
+        let taps = (1..=sides).zip(taps).map(|(number, strip)| {
+            let beyond = point.beyond_line(strip.end * point.pixel);
+            let outer = if number == sides { [0.0; 3] } else { beyond };
+            let share: Rgb = std::array::from_fn(|channel| inner[channel] - outer[channel]);
             inner = outer;
-            Strip { offset: offset(tap), share, beyond: beyond(offset(tap)) }
+            let middle = 0.5 * (strip.start + strip.end) * point.pixel;
+            let beyond = point.beyond_line(middle);
+            let per_beyond: Rgb =
+                std::array::from_fn(|channel| share[channel] / beyond[channel].max(SMALLEST_WEIGHT));
+            let flat_weight = std::array::from_fn(|channel| per_beyond[channel] * beyond[channel]);
+            Tap { strip, middle, per_beyond, flat_weight }
         });
-        let taps = strips.collect();
+        let taps = taps.collect();
         let is_on = point.footprint_taps(u32::MAX) > 0;
         Self { point, rotated, centre, taps, is_on }
     }
@@ -116,29 +120,34 @@ impl<'a> Separable<'a> {
     ) -> Gathered {
         let mut gathered = Gathered::default();
         gathered.add(self.centre, own);
-        let depth = scene.depth(patch.in_scene(pixel)[0]);
-        for strip in &self.taps {
-            for side in [-1.0, 1.0] {
-                let offset = axis.map(|component| side * strip.offset / self.point.pixel * component);
-                let at = pixel_at(pixel.map(f64::from), offset);
-                let apart = self.point.depth_pixels(scene.depth(patch.in_scene(at)[0]) - depth);
-                gathered.add(self.weight(strip, apart), light(at));
+        let depth_at = |at: [i32; 2]| {
+            let [x, y] = patch.in_scene(at);
+            scene.covers(x, y).then(|| scene.depth(x, y))
+        };
+        let depth = depth_at(pixel).unwrap_or_default();
+        for (tap, side) in self.taps.iter().flat_map(|tap| [(tap, -1.0), (tap, 1.0)]) {
+            let lines = tap.strip.lines.map(|line| {
+                let at = pixel_at(pixel.map(f64::from), axis.map(|component| side * line * component));
+                (at, depth_at(at))
+            });
+            let found = || lines.into_iter().filter_map(|(at, deep)| deep.map(|deep| (at, deep - depth)));
+            let count = found().count() as f64;
+            let squares = found().map(|(_, apart)| self.point.depth_pixels(apart).powi(2)).sum::<f64>();
+            for (at, _) in found() {
+                let weight = self.weight(tap, (squares / count).sqrt());
+                gathered.add(weight.map(|weight| 0.5 * weight), light(at));
             }
         }
         gathered
     }
 
     /// Weight of a tap that lies `depth` pixels deeper than the centre, or higher.
-    fn weight(&self, strip: &Strip, depth: f64) -> Rgb {
+    fn weight(&self, tap: &Tap, depth: f64) -> Rgb {
         if depth == 0.0 {
-            return strip.share;
+            return tap.flat_weight;
         }
-        let path = strip.offset.hypot(depth * self.point.pixel);
-        let beyond = self.point.beyond_line(path);
-        std::array::from_fn(|channel| {
-            let left = beyond[channel] / strip.beyond[channel].max(SMALLEST_WEIGHT);
-            strip.share[channel] * left.clamp(0.0, 1.0)
-        })
+        let beyond = self.point.beyond_line(tap.middle.hypot(depth * self.point.pixel));
+        std::array::from_fn(|channel| tap.per_beyond[channel] * beyond[channel])
     }
 
     fn axis(&self, pixel: [i32; 2]) -> [f64; 2] {

@@ -15,7 +15,7 @@ use crate::pictures::scene::Scene;
 use crate::pictures::stage::Stage;
 
 /// Mean radii of the widest channel, pixels.
-pub(crate) const FOOTPRINTS: [f64; 3] = [1.0, 3.0, 10.0];
+pub(crate) const FOOTPRINTS: [f64; 5] = [1.0, 3.0, 10.0, 30.0, 100.0];
 
 /// A material in a picture at a footprint.
 #[derive(Debug)]
@@ -24,8 +24,8 @@ pub(crate) struct Case<'a> {
     pub(crate) mean_radius_pixels: f64,
     stage: Rc<Stage<'a>>,
     patches: Vec<Patch>,
-    /// Pixel by pixel, patch by patch.
-    expected: Vec<Rgb>,
+    /// Pixel by pixel, patch by patch; `None` where a pixel shows no surface.
+    expected: Vec<Option<Rgb>>,
     /// Kernels that were tried, with their effective taps.
     known: Vec<(Estimator, Deviation)>,
 }
@@ -53,16 +53,17 @@ impl<'a> Case<'a> {
     }
 
     /// The pictures of one material at one footprint.
-    pub(crate) fn of_footprint(optics: &'a Optics, mean_radius: f64, rejection: Rejection) -> [Self; 4] {
+    pub(crate) fn of_footprint(optics: &'a Optics, mean_radius: f64, rejection: Rejection) -> Vec<Self> {
         let returned = rejection.rejected == Rejected::ReturnedToCentre;
         let point = Point::new(optics, mean_radius, rejection.by_distance, returned);
         let stage = Rc::new(Stage::new(point));
-        Scene::all(mean_radius).map(|scene| {
+        let of_scene = |scene: Scene| {
             let patches = Patch::all(scene, scene.reach(mean_radius));
             let expected = expected(&point, scene, &patches);
             let stage = Rc::clone(&stage);
             Self { scene, mean_radius_pixels: mean_radius, stage, patches, expected, known: Vec::new() }
-        })
+        };
+        Scene::all(mean_radius).into_iter().map(of_scene).collect()
     }
 
     /// Whether two kernels of one kind draw the same picture.
@@ -84,15 +85,19 @@ impl<'a> Case<'a> {
     fn draw(&self, kernel: Estimator) -> Option<Deviation> {
         let drawn = self.stage.draw(kernel, self.scene, &self.patches)?;
         let mut squares = [0.0; 3];
-        let mut worst_pixel = 0.0_f64;
-        for (drawn, expected) in drawn.iter().zip(&self.expected) {
+        let (mut worst_pixel, mut pixels) = (0.0_f64, 0.0);
+        for (place, (pixel, expected)) in drawn.iter().zip(&self.expected).enumerate() {
+            // What moves is as it was before.
+            let before = Patch::before_pan(place).and_then(|before| drawn.get(before)).copied();
+            let expected = if self.scene == Scene::Pan { before } else { *expected };
+            let Some(expected) = expected else { continue };
+            pixels += 1.0;
             for channel in 0..3 {
-                let difference = drawn[channel] - expected[channel];
+                let difference = pixel[channel] - expected[channel];
                 squares[channel] += difference * difference;
                 worst_pixel = worst_pixel.max(difference.abs());
             }
         }
-        let pixels = self.expected.len() as f64;
         let error = squares.into_iter().fold(0.0, f64::max);
         Some(Deviation { error: (error / pixels).sqrt(), worst_pixel })
     }

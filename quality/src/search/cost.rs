@@ -40,8 +40,8 @@ pub fn cost(kernel: Estimator, device: Device) -> f64 {
         // Two stages that each set up a pixel and the integrals of its strips.
         Estimator::Separable { taps, .. } => {
             let line = match device {
-                Device::Rdna => line(5.9, 5.0),
-                Device::Gcn => line(12.9, 13.1),
+                Device::Rdna => line(5.1, 6.82),
+                Device::Gcn => line(12.3, 16.0),
                 Device::Software => line(42.0, 1.8),
             };
             (taps, line)

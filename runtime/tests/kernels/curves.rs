@@ -23,6 +23,7 @@ struct Answer {
     radius_mm: f32,
     slope_mm: f32,
     beyond_line: f32,
+    line_reach_mm: f32,
 }
 
 fn compilation(description: &Description) -> Compilation {
@@ -130,16 +131,24 @@ fn edges_spread_as_the_profiles_say() {
             for quantile in [0.02, 0.1, 0.3, 0.5, 0.8, 0.95, 0.99] {
                 let offset_mm = profile.sample_radius(quantile);
                 let offset = offset_mm as f32;
-                queries.push(Query { material, channel: 1, surface_albedo, u: 0.5, offset_mm: offset });
+                let u = quantile as f32;
+                queries.push(Query { material, channel: 1, surface_albedo, u, offset_mm: offset });
                 expected.push(1.0 - spread.at(f64::from(offset)));
             }
         }
     }
     let answers: Vec<Answer> = gpu.evaluate(&compilation(&description), "curves", &queries);
     let mut worst = (0.0_f64, String::new());
+    let mut worst_reach = (0.0_f64, String::new());
     for ((query, answer), expected) in queries.iter().zip(&answers).zip(expected) {
-        let error = (f64::from(answer.beyond_line) - expected).abs();
         let stem = description.stems[query.material as usize];
+        let profile = profile(stem, Channel::Green, f64::from(query.surface_albedo));
+        let inside = 2.0 * EdgeSpread::new(&*profile).at(f64::from(answer.line_reach_mm)) - 1.0;
+        let error = (inside - f64::from(query.u)).abs();
+        if error > worst_reach.0 {
+            worst_reach = (error, format!("{stem}, A = {}: {inside}, not {}", query.surface_albedo, query.u));
+        }
+        let error = (f64::from(answer.beyond_line) - expected).abs();
         let context = format!(
             "{stem}, A = {}: {} beyond {} mm is not {expected}",
             query.surface_albedo, answer.beyond_line, query.offset_mm
@@ -152,4 +161,8 @@ fn edges_spread_as_the_profiles_say() {
     println!("edge curves: worst error {error:.1e} of the step: {context}");
     // Straight between 64 offsets, and mixed between 16 surface albedos.
     assert!(error < 1e-2, "{error}: {context}");
+    let (error, context) = worst_reach;
+    println!("lines: worst error {error:.1e} of the light: {context}");
+    // The light on both sides, read the other way round.
+    assert!(error < 2e-2, "{error}: {context}");
 }

@@ -121,8 +121,8 @@ fn step_bounds(kernel: Estimator, stem: &str) -> (f64, f64) {
             // has the noise of independent taps, each of which finds the light or does not: ½/√n at the edge.
             (0.06, if counting < 6.0 { 0.5 / counting.sqrt() } else { 0.1 })
         }
-        // Without noise; strips of light stand in one tap each, which an edge crosses at once.
-        Estimator::Separable { .. } => (0.12, 1e-3),
+        // Without noise; a strip is a sixteenth of the light and stands in two lines, each of which an edge crosses at once.
+        Estimator::Separable { .. } => (0.03, 1e-3),
         // Four taps for the far field of the widest channel; narrow channels find most of their light in the ring.
         Estimator::Interleaved { .. } => (0.07, 0.04),
         // What the frame's border renormalizes.
@@ -190,7 +190,7 @@ fn a_step_edge_at_every_footprint() {
 fn footprint_bounds(kernel: Estimator, taps: u32) -> (f64, f64) {
     match (kernel, taps) {
         (Estimator::ImportanceSampled { .. }, _) => (0.06, 0.04),
-        (Estimator::Separable { .. }, _) => (0.12, 0.04),
+        (Estimator::Separable { .. }, _) => (0.04, 0.025),
         (_, 4) => (0.045, 0.02),
         // Noise-free: what is left is the lattice itself, 144 taps that an edge crosses one by one.
         _ => (0.035, 0.01),

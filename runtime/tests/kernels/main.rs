@@ -25,4 +25,5 @@ mod material_table;
 mod mean_free_path_scale;
 mod paths;
 mod rejection;
+mod steps;
 mod sums;

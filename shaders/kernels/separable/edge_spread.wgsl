@@ -1,39 +1,47 @@
 // uses: gather/{curve, material, profile}, kernel/constants
 
-/// Fraction of the light beyond a line `offset_mm` from an edge, per channel, which is 1 − F.
-fn beyond_line(surface: MaterialSurface, profiles: ChannelProfiles, offset_mm: f32) -> vec3f {
-    return vec3f(
-        curve_beyond_line(surface, profiles.red.curve, offset_mm),
-        curve_beyond_line(surface, profiles.green.curve, offset_mm),
-        curve_beyond_line(surface, profiles.blue.curve, offset_mm),
+/// The edge spread F of a point's three profiles: rows of the edge curves, which hold F at even steps of the fourth
+/// root of the offset.
+struct EdgeSpread {
+    /// Row of the lower curve, per channel.
+    rows: vec3i,
+    /// Fraction of the upper one.
+    upper: vec3f,
+    /// Steps of a curve by the fourth root of the offset in mm.
+    steps: vec3f,
+}
+
+/// That of `profiles`.
+fn edge_spread_of(surface: MaterialSurface, profiles: ChannelProfiles) -> EdgeSpread {
+    let red = profiles.red.curve;
+    let green = profiles.green.curve;
+    let blue = profiles.blue.curve;
+    let lengths_mm = vec3f(red.mean_free_path_mm, green.mean_free_path_mm, blue.mean_free_path_mm);
+    return EdgeSpread(
+        vec3i(red.row, green.row, blue.row) + i32(surface.first_edge) - i32(surface.first_curve),
+        vec3f(red.upper, green.upper, blue.upper),
+        f32(CURVE_STEPS) / sqrt(sqrt(surface.edge_reach * lengths_mm)),
     );
 }
 
-/// The same for one channel: a row of the edge curves holds F at even steps of the fourth root of the offset.
-fn curve_beyond_line(surface: MaterialSurface, curve: Curve, offset_mm: f32) -> f32 {
-    let reach_mm = surface.edge_reach * curve.mean_free_path_mm;
-    // What little is left where the curve ends is no light: a share of it would be whole.
-    if offset_mm >= reach_mm {
-        return 0.0;
-    }
-    let place = sqrt(sqrt(clamp(offset_mm / reach_mm, 0.0, 1.0))) * f32(CURVE_STEPS);
-    let step = min(floor(place), f32(CURVE_STEPS) - 1.0);
-    let row = curve.row - i32(surface.first_curve) + i32(surface.first_edge);
-    let texel = curve_texel(row, i32(step));
-    let start_and_rise = mix(texel.xy, texel.zw, curve.upper);
-    return max(1.0 - start_and_rise.x - start_and_rise.y * (place - step), 0.0);
+/// Fraction of the light beyond a line `offset_mm` from an edge, per channel, which is 1 − F.
+fn beyond_line(spread: EdgeSpread, offset_mm: f32) -> vec3f {
+    let places = sqrt(sqrt(offset_mm)) * spread.steps;
+    return vec3f(
+        curve_beyond(spread.rows.r, spread.upper.r, places.r),
+        curve_beyond(spread.rows.g, spread.upper.g, places.g),
+        curve_beyond(spread.rows.b, spread.upper.b, places.b),
+    );
 }
 
-/// Share of a strip's light that is left of it where the surface lies `depth_mm` deeper or higher: what lies beyond the
-/// strip's middle is taken at its distance in space.
-fn line_share(
-    surface: MaterialSurface,
-    profiles: ChannelProfiles,
-    beyond: vec3f,
-    offset_mm: f32,
-    depth_mm: f32,
-) -> vec3f {
-    let path_mm = sqrt(offset_mm * offset_mm + depth_mm * depth_mm);
-    let left = beyond_line(surface, profiles, path_mm);
-    return clamp(left / max(beyond, vec3f(SMALLEST_WEIGHT)), vec3f(0.0), vec3f(1.0));
+/// The same for one channel, at a place of its curve in steps.
+fn curve_beyond(row: i32, upper: f32, place: f32) -> f32 {
+    // What little is left where the curve ends is no light: a share of it would be whole.
+    if place >= f32(CURVE_STEPS) {
+        return 0.0;
+    }
+    let step = floor(place);
+    let texel = curve_texel(row, i32(step));
+    let start_and_rise = mix(texel.xy, texel.zw, upper);
+    return max(1.0 - start_and_rise.x - start_and_rise.y * (place - step), 0.0);
 }

@@ -1,11 +1,4 @@
-// uses: kernel/constants, lib/{angle, noise}, the material set; needs: subsurface_view
-
-/// Distance of tap `tap` of `taps` on one side of the centre, in whole pixels: the squares of even steps up to the
-/// reach, but no two taps on one pixel, so that strips end between pixels.
-fn tap_offset(tap: f32, taps: f32, reach_pixels: f32) -> f32 {
-    let step = tap / taps;
-    return max(round(step * step * min(reach_pixels, LARGEST_TAP_DISTANCE)), tap);
-}
+// uses: lib/{angle, noise}, the material set; needs: subsurface_view
 
 /// Axis along which the first of the two passes blurs at `pixel`: the rows of the target, or another direction for each
 /// pixel where the compiler says so. The second pass is perpendicular.

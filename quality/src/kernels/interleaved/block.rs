@@ -7,19 +7,51 @@ use crate::gather::point::Point;
 use crate::pictures::patch::Patch;
 use crate::pictures::scene::Scene;
 
+use super::agreement::depth_agreement;
 use super::block_ring::BlockRing;
 use super::far::{Lattice, lattice_slice};
+use super::square::Square;
 
 /// A block as its pixels read it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Block {
     pub(crate) far: Gathered,
-    /// Mean distance, pixels.
+    /// Distance at which it counts, pixels.
     pub(crate) depth: f64,
 }
 
+/// The pixels of a block that are of its first surface, as one.
+struct Surface {
+    /// Their mean position in the scene.
+    position: [f64; 2],
+    /// Their mean distance, pixels.
+    depth: f64,
+    /// Distance of the first, pixels.
+    first_depth: f64,
+}
+
+impl Surface {
+    /// Those of the block that begins at `first` of the scene; `None` where it shows no surface.
+    fn of(point: &Point<'_>, scene: Scene, first: [i32; 2]) -> Option<Self> {
+        let pixels =
+            [[0, 0], [1, 0], [0, 1], [1, 1]].map(|[right, down]| [first[0] + right, first[1] + down]);
+        let shown = || pixels.into_iter().filter(|[x, y]| scene.covers(*x, *y));
+        let first_depth = shown().next().map(|[x, y]| scene.depth(x, y))?;
+        let (mut position, mut depth, mut count) = ([0.0; 2], 0.0, 0.0);
+        for [x, y] in shown() {
+            let own = scene.depth(x, y);
+            if depth_agreement(point.depth_pixels(own - first_depth)) > 0.0 {
+                position = [position[0] + f64::from(x), position[1] + f64::from(y)];
+                depth += own;
+                count += 1.0;
+            }
+        }
+        Some(Self { position: position.map(|sum| sum / count), depth: depth / count, first_depth })
+    }
+}
+
 impl Block {
-    /// The block `block` of the screen.
+    /// The block `block` of the screen; `None` where it shows no surface.
     pub(crate) fn gather(
         lattice: &Lattice,
         ring: &BlockRing,
@@ -27,14 +59,15 @@ impl Block {
         scene: Scene,
         patch: Patch,
         block: [i32; 2],
-    ) -> Self {
+    ) -> Option<Self> {
         let first = patch.in_scene(block.map(|place| BLOCK_SIDE * place));
-        let position = first.map(|place| f64::from(place) + 0.5);
-        let depth = 0.5 * (scene.depth(first[0]) + scene.depth(first[0] + 1));
+        let surface = Surface::of(point, scene, first)?;
         let mut far = Gathered::default();
-        let sampled = lattice.gather(point, scene, patch, lattice_slice(block), position, depth);
+        let slice = lattice_slice(block);
+        let sampled = lattice.gather(point, scene, patch, slice, surface.position, surface.depth);
         far.add_share(&sampled, point.blend());
-        far.add_share(&ring.gather(point, scene, patch, first, depth), point.blend());
-        Self { far, depth }
+        far.add_share(&ring.gather(point, scene, patch, block, surface.depth), point.blend());
+        let square = Square::whole(point, scene, first, BLOCK_SIDE);
+        Some(Self { far, depth: square.map_or(surface.first_depth, |square| square.depth) })
     }
 }

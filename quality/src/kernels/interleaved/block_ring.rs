@@ -52,20 +52,26 @@ impl BlockRing {
         ring
     }
 
-    /// Light around the block whose first pixel is at `first` of the scene, and which is `depth` pixels away.
+    /// Light around the block `block` of the screen, which is `depth` pixels away.
     pub(crate) fn gather(
         &self,
         point: &Point<'_>,
         scene: Scene,
         patch: Patch,
-        first: [i32; 2],
+        block: [i32; 2],
         depth: f64,
     ) -> Gathered {
         let mut gathered = Gathered::default();
         for (share, squared_blocks, ring) in [(self.beside, 1.0, BESIDE), (self.across, 2.0, ACROSS)] {
             for [right, down] in ring {
-                let place = [first[0] + BLOCK_SIDE * right, first[1] + BLOCK_SIDE * down];
-                let square = Square::around(scene, patch, place, BLOCK_SIDE);
+                // Where the block is no square, one of its pixels: see the shader.
+                let past_centre = 3 * (down + 1) + right + 1;
+                let number = past_centre - i32::from(past_centre > 4);
+                let which = [(number + block[0]) & 1, ((number >> 1) + block[1]) & 1];
+                let pixel =
+                    [BLOCK_SIDE * (block[0] + right) + which[0], BLOCK_SIDE * (block[1] + down) + which[1]];
+                let square = Square::around(point, scene, patch, patch.in_scene(pixel), BLOCK_SIDE);
+                let Some(square) = square else { continue };
                 let steps = point.depth_pixels(square.depth - depth);
                 let squared_radius = squared_blocks * f64::from(BLOCK_SIDE * BLOCK_SIDE);
                 let kept = depth_agreement(0.5 * self.depth_factor * steps);

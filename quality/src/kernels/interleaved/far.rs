@@ -75,7 +75,8 @@ impl Lattice {
     ) -> Gathered {
         let mut gathered = Gathered::default();
         for tap in &self.slices[slice] {
-            let square = Square::around(scene, patch, pixel_at(position, tap.offset), self.side);
+            let place = pixel_at(position, tap.offset);
+            let Some(square) = Square::around(point, scene, patch, place, self.side) else { continue };
             let apart = point.depth_pixels(square.depth - depth);
             gathered.add(tap.weight(point, apart), [square.light; 3]);
         }

@@ -16,7 +16,10 @@ pub(crate) fn ring_light(near: &NearField, point: &Point<'_>, scene: Scene, [x, 
     let mut gathered = Gathered::default();
     for (share, squared_radius, ring) in [(near.beside, 1.0, BESIDE), (near.across, 2.0, ACROSS)] {
         for [right, down] in ring {
-            let steps = point.depth_pixels(scene.depth(x + right) - scene.depth(x));
+            if !scene.covers(x + right, y + down) {
+                continue;
+            }
+            let steps = point.depth_pixels(scene.depth(x + right, y + down) - scene.depth(x, y));
             let on_surface = depth_agreement(steps);
             let kept = on_surface * squared_radius / (squared_radius + steps * steps);
             gathered.add(share.map(|share| kept * share), [scene.light(x + right, y + down); 3]);

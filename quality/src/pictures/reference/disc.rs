@@ -1,10 +1,6 @@
 //! A lit disc, pixel by pixel.
 
-use std::f64::consts::FRAC_PI_4;
-
-use subsurface_profile::RadialProfile;
-
-use super::GAUSS;
+use super::share::share;
 use crate::gather::gathered::Rgb;
 use crate::gather::point::Point;
 
@@ -40,7 +36,7 @@ impl PixelShares {
     fn new(point: &Point<'_>, reach: i32) -> Self {
         // An eighth of the plane; the rest are mirror images.
         let places = (0..=reach).flat_map(|long| (0..=long).map(move |short| [long, short]));
-        let eighth: Vec<Rgb> = places.map(|place| share(point, place)).collect();
+        let eighth: Vec<Rgb> = places.map(|place| share(point, place, 0.0)).collect();
         let mut before = Vec::new();
         for y in 0..=reach {
             let mut sum = [0.0; 3];
@@ -63,40 +59,4 @@ impl PixelShares {
         let [from, to] = [first, last + 1].map(|x| self.before[(start + x) as usize]);
         std::array::from_fn(|channel| to[channel] - from[channel])
     }
-}
-
-/// Share of the pixel at a place around the centre.
-fn share(point: &Point<'_>, [long, short]: [i32; 2]) -> Rgb {
-    if long == 0 {
-        return [0, 1, 2]
-            .map(|channel: usize| centre_share(&*point.optics.channels[channel].profile, 0.5 * point.pixel));
-    }
-    // Profiles are steep close to the centre: the midpoint rule's error falls with the square of points × distance.
-    let points = match long {
-        1 => 12,
-        2..=4 => 4,
-        5..=16 => 2,
-        _ => 1,
-    };
-    let mut sum = [0.0; 3];
-    for place in 0..points * points {
-        let within = |place: i32| (f64::from(place) + 0.5) / f64::from(points) - 0.5;
-        let x = f64::from(long) + within(place % points);
-        let y = f64::from(short) + within(place / points);
-        let density = point.area_pdf(x.hypot(y) * point.pixel);
-        for channel in 0..3 {
-            sum[channel] += density[channel];
-        }
-    }
-    let area = point.pixel * point.pixel / f64::from(points * points);
-    sum.map(|density| density * area)
-}
-
-/// Share of the square around the centre, `half` its side long: (4/π) ∫ cdf(half / cos θ) dθ over θ in [0, π/4], since
-/// profiles diverge at the centre and the integral over the radius is the CDF.
-fn centre_share(profile: &dyn RadialProfile, half: f64) -> f64 {
-    GAUSS
-        .into_iter()
-        .map(|(place, weight)| weight * profile.radial_cdf(half / ((place + 0.5) * FRAC_PI_4).cos()))
-        .sum()
 }

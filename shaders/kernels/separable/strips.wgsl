@@ -1,0 +1,45 @@
+// uses: gather/{curve, material, point}, kernel/constants
+
+/// A strip beside the centre: lines at distances from `start` to `end`, pixels.
+struct Strip {
+    start: f32,
+    end: f32,
+    /// Whole distances of the two lines that stand for it, one for each half; the same if the strip has only one.
+    near: f32,
+    far: f32,
+}
+
+/// The curve of the distances within which a line keeps a share of its light, for the profile whose radii are on
+/// `radii`: its rows follow those of the edge spread.
+fn line_curve(surface: MaterialSurface, radii: Curve) -> Curve {
+    let row = radii.row + i32(surface.first_edge + surface.curve_count) - i32(surface.first_curve);
+    return Curve(row, radii.upper, radii.mean_free_path_mm);
+}
+
+/// Distance within which a line keeps the share `inside` of its light, pixels: of the widest channel.
+fn line_reach_pixels(surface: MaterialSurface, point: SurfacePoint, inside: f32) -> f32 {
+    let reach_mm = curve_quantile(line_curve(surface, point.widest.curve), inside).x;
+    return min(reach_mm / point.pixel_mm, LARGEST_TAP_DISTANCE);
+}
+
+/// Strip `strip` of `strips`, from 1 on, where the last one ended: of what lands beside the centre, `beyond_centre`,
+/// all hold equal shares of the widest channel. But each has one pixel at least, and ends between pixels.
+fn next_strip(
+    surface: MaterialSurface,
+    point: SurfacePoint,
+    beyond_centre: f32,
+    strip: u32,
+    strips: u32,
+    start: f32,
+) -> Strip {
+    // The last one has no end: its middle halves its light.
+    let is_last = strip == strips;
+    let place = f32(strip) - select(0.0, 0.5, is_last);
+    let reach = line_reach_pixels(surface, point, 1.0 - beyond_centre * (1.0 - place / f32(strips)));
+    let end = max(select(floor(reach) + 0.5, 2.0 * reach - start, is_last), start + 1.0);
+    let width = end - start;
+    let quarter = select(0.0, 0.25 * width, width >= 2.0);
+    let middle = 0.5 * (start + end);
+    // Half a pixel goes outwards on both sides, so that the two lie evenly in the strip.
+    return Strip(start, end, ceil(middle - quarter - 0.5), floor(middle + quarter + 0.5));
+}
