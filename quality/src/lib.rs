@@ -8,12 +8,13 @@
 //!
 //! A family of pictures whose diffusion is known exactly is drawn by an f64 twin of each kernel. Every material is tried
 //! on all of them, with its own surface albedo, and every model with a surface albedo of 1, which a scene without textures
-//! has; the irradiance is white (1 in all channels) or black (0):
+//! has (but for the albedo edge); the irradiance is white (1 in all channels) or black (0):
 //!
 //! - *step edge*: a plane, one half of it white;
 //! - *line*: a white line, one pixel wide, on a black plane;
 //! - *disc*: a white disc on a black plane, its radius half as long again as the mean radius of the profile;
 //! - *crease*: two planes that meet at a right angle, each 45° from the view axis, one of them white;
+//! - *albedo edge*: a plane, one half of it white and with three quarters of the surface albedo;
 //! - *pixel*: one white pixel on a black plane;
 //! - *pan*: a white disc with a radius of 3.5 pixels that moves by one to three pixels along both axes: what matters is how
 //!   much the result differs from what it was before;
@@ -41,7 +42,7 @@
 //! # What it is not
 //!
 //! Rounding of the GPU's own is left out: nine bits per number between the stages of `Interleaved` are within 2e-3 of a
-//! pixel's brightest channel. So is whatever lies between two textured surface albedos: materials are tried at their own.
+//! pixel's brightest channel. Of textured surface albedos only one edge is tried.
 //!
 //! What this crate does not know: RON, WGSL, the GPU; what a texture makes of a material.
 

@@ -20,6 +20,9 @@ use density_table::DensityTable;
 use line_spread::{beyond_line, line_spread};
 use log_table::LogTable;
 
+/// Surface albedo of a material's other surface, as a part of its own: a mole on skin.
+const OTHER_ALBEDO: f64 = 0.75;
+
 /// What a material looks like, but for its size: equal ones are tried once.
 #[derive(Clone, Debug, PartialEq)]
 struct Appearance {
@@ -69,6 +72,8 @@ pub(crate) struct Optics {
     pub(crate) mean_radius: f64,
     /// Densities per area by radius.
     pub(crate) densities: DensityTable,
+    /// The same material with its other surface albedo, and with the mean of both; `None` where that changes nothing.
+    pub(crate) others: Option<Box<[Self; 2]>>,
 }
 
 /// The profile of one channel.
@@ -88,14 +93,24 @@ impl Optics {
     pub(crate) fn of_all(materials: &[Material<'_>]) -> Result<Vec<Self>, NoProfile> {
         let mut known: Vec<Appearance> = Vec::new();
         let mut optics = Vec::new();
-        let own = materials.iter().map(Appearance::of).enumerate();
+        let own_appearances: Vec<Appearance> = materials.iter().map(Appearance::of).collect();
+        let own = own_appearances.iter().cloned().enumerate();
         let white = materials.iter().map(Appearance::of_white).enumerate();
         let white = white.filter_map(|(number, white)| Some((number, white?)));
         for (number, appearance) in own.chain(white) {
             if known.contains(&appearance) {
                 continue;
             }
-            optics.push(Self::of(&appearance, number)?);
+            let mut own = Self::of(&appearance, number)?;
+            // What is white has no texture of the surface albedo.
+            if own_appearances.contains(&appearance) && appearance.model.dependence() != Dependence::Channel {
+                let darker = |factor: f64| {
+                    let surface_albedo = appearance.surface_albedo.map(|albedo| factor * albedo);
+                    Self::of(&Appearance { surface_albedo, ..appearance.clone() }, number)
+                };
+                own.others = Some(Box::new([darker(OTHER_ALBEDO)?, darker(0.5 * (1.0 + OTHER_ALBEDO))?]));
+            }
+            optics.push(own);
             known.push(appearance);
         }
         Ok(optics)
@@ -147,6 +162,6 @@ impl Optics {
         let densities = DensityTable::new(5e-3 * mean_radius, 600.0 * mean_radius, |radius| {
             [0, 1, 2].map(|channel: usize| channels[channel].profile.area_pdf(radius))
         });
-        Ok(Self { channels, widest, mean_radius, densities })
+        Ok(Self { channels, widest, mean_radius, densities, others: None })
     }
 }

@@ -26,7 +26,7 @@ pub struct QualityReport {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct PictureReport {
-    /// `step edge`, `line`, `disc`, `crease`, `pixel`, `pan`, `ball` or `frame`.
+    /// `step edge`, `line`, `disc`, `crease`, `albedo edge`, `pixel`, `pan`, `ball` or `frame`.
     pub name: &'static str,
     /// Mean radius of the widest channel's profile, pixels.
     pub mean_radius_pixels: f64,

@@ -11,9 +11,12 @@ use subsurface_codegen::{Compilation, Compiler, Estimator, OutputFormat, Picture
 use subsurface_profile::{Channel, EdgeSpread, Medium, Model, RadialProfile};
 use subsurface_runtime::{SubsurfaceDescriptor, SubsurfaceInputs, SubsurfacePass, SubsurfaceView, wgpu};
 
-/// One that does not depend on the surface albedo: others are tried where they are white as well, and the error that is
-/// stated is that of the worse.
-const PROFILE: &str = "dipole_skin1";
+/// A profile that does not depend on the surface albedo: others are tried where they are white as well, and the error that
+/// is stated is that of the worse.
+const UNIFORM: &str = "dipole_skin1";
+
+/// A profile that does, for the picture that is not tried where they are white.
+const TEXTURED: &str = "two_exponential_dipole_searchlight";
 
 const LENGTH_MM: [f64; 3] = [1.3, 0.95, 0.67];
 const SURFACE_ALBEDO: [f64; 3] = [0.83, 0.64, 0.55];
@@ -25,10 +28,10 @@ const PERIOD: i32 = 4;
 /// within 14 %), and stages keep nine bits, which is 1e-3 of the white level.
 const TOLERANCE: (f64, f64) = (0.2, 1e-3);
 
-/// A set whose file says `choice`.
-fn compiled(choice: &str) -> Compilation {
+/// A set of one material with a profile, whose file says `choice`.
+fn compiled(profile: &str, choice: &str) -> Compilation {
     let skin = format!(
-        "Material(profile: \"{PROFILE}\", mean_free_path_mm: ({}, {}, {}), surface_albedo: ({}, {}, {}))",
+        "Material(profile: \"{profile}\", mean_free_path_mm: ({}, {}, {}), surface_albedo: ({}, {}, {}))",
         LENGTH_MM[0], LENGTH_MM[1], LENGTH_MM[2], SURFACE_ALBEDO[0], SURFACE_ALBEDO[1], SURFACE_ALBEDO[2]
     );
     let files = [("skin.ron", skin), ("set.ron", format!("MaterialSet({choice})"))];
@@ -36,18 +39,19 @@ fn compiled(choice: &str) -> Compilation {
     compiler.compile().unwrap_or_else(|report| panic!("{report}"))
 }
 
-fn profiles() -> [Box<dyn RadialProfile>; 3] {
-    let model = Model::published(PROFILE).expect("it is published");
+/// The profiles of the three channels where the surface albedo has a factor.
+fn profiles(stem: &str, albedo: f64) -> [Box<dyn RadialProfile>; 3] {
+    let model = Model::published(stem).expect("it is published");
     Channel::ALL.map(|channel| {
         let index = channel.index();
-        let medium = Medium::new(SURFACE_ALBEDO[index], LENGTH_MM[index]).expect("a medium");
+        let medium = Medium::new(albedo * SURFACE_ALBEDO[index], LENGTH_MM[index]).expect("a medium");
         model.profile(medium, channel).expect("a profile")
     })
 }
 
 /// Mean radius in mm of the widest channel, over all but the last 1e-4 of its light, as curves hold it.
-fn mean_radius_mm() -> f64 {
-    let red = &profiles()[0];
+fn mean_radius_mm(profile: &str) -> f64 {
+    let red = &profiles(profile, 1.0)[0];
     (0..9999).map(|place| red.sample_radius((f64::from(place) + 0.5) / 1e4)).sum::<f64>() / 9999.0
 }
 
@@ -55,37 +59,52 @@ fn mean_radius_mm() -> f64 {
 #[derive(Clone, Copy)]
 struct Picture {
     name: &'static str,
+    profile: &'static str,
     light: fn(i32, i32, f64) -> bool,
     depth: fn(i32, i32) -> Option<f64>,
+    /// Factor on the surface albedo, by column.
+    albedo: fn(i32) -> f64,
+}
+
+impl Picture {
+    const fn new(
+        name: &'static str,
+        light: fn(i32, i32, f64) -> bool,
+        depth: fn(i32, i32) -> Option<f64>,
+    ) -> Self {
+        Self { name, profile: UNIFORM, light, depth, albedo: |_| 1.0 }
+    }
 }
 
 const FLAT: fn(i32, i32) -> Option<f64> = |_, _| Some(0.0);
 
 const PICTURES: [Picture; 5] = [
-    Picture { name: "step edge", light: |x, _, _| x >= 0, depth: FLAT },
-    Picture { name: "line", light: |x, _, _| x == 0, depth: FLAT },
-    Picture {
-        name: "disc",
-        light: |x, y, mean| f64::from(x * x + y * y) <= (1.5 * mean).powi(2),
-        depth: FLAT,
-    },
-    Picture { name: "pixel", light: |x, y, _| (x, y) == (0, 0), depth: FLAT },
-    Picture { name: "crease", light: |x, _, _| x >= 0, depth: |x, _| Some((f64::from(x) + 0.5).abs()) },
+    Picture::new("step edge", |x, _, _| x >= 0, FLAT),
+    Picture::new("line", |x, _, _| x == 0, FLAT),
+    Picture::new("disc", |x, y, mean| f64::from(x * x + y * y) <= (1.5 * mean).powi(2), FLAT),
+    Picture::new("pixel", |x, y, _| (x, y) == (0, 0), FLAT),
+    Picture::new("crease", |x, _, _| x >= 0, |x, _| Some((f64::from(x) + 0.5).abs())),
 ];
 
+/// A step edge where the surface albedo changes.
+const ALBEDO_EDGE: Picture = Picture {
+    profile: TEXTURED,
+    albedo: |x| if x >= 0 { 0.75 } else { 1.0 },
+    ..Picture::new("albedo edge", |x, _, _| x >= 0, FLAT)
+};
+
 /// A step edge in a frame of 20 columns.
-const FRAME: Picture =
-    Picture { name: "frame", light: |x, _, _| x >= 0, depth: |x, _| (-10..10).contains(&x).then_some(0.0) };
+const FRAME: Picture = Picture::new("frame", |x, _, _| x >= 0, |x, _| (-10..10).contains(&x).then_some(0.0));
 
 /// A ball of 24 pixels in stripes of 9.
-const BALL: Picture = Picture {
-    name: "ball",
-    light: |x, _, _| ((x + 24) / 9) % 2 == 0,
-    depth: |x, y| {
+const BALL: Picture = Picture::new(
+    "ball",
+    |x, _, _| ((x + 24) / 9) % 2 == 0,
+    |x, y| {
         let left = 24 * 24 - x * x - y * y;
         (left >= 0).then(|| -f64::from(left).sqrt())
     },
-};
+);
 
 /// A picture on the screen: its feature at `centre` in a square of `side` pixels.
 struct Drawn {
@@ -103,7 +122,7 @@ impl Drawn {
         side: i32,
         centre: [i32; 2],
     ) -> Self {
-        let pixel_mm = mean_radius_mm() / mean;
+        let pixel_mm = mean_radius_mm(picture.profile) / mean;
         let size = [side as u32; 2];
         let place = |x: u32, y: u32| (x as i32 - centre[0], y as i32 - centre[1]);
         let irradiance = gpu.rgba32(size, |x, y| {
@@ -117,7 +136,8 @@ impl Drawn {
         };
         let surface = gpu.rgba32(size, |x, y| {
             let material = if depth_at(x, y).is_some() { 0.0 } else { -1.0 };
-            [albedo[0], albedo[1], albedo[2], material]
+            let factor = (picture.albedo)(place(x, y).0) as f32;
+            [factor * albedo[0], factor * albedo[1], factor * albedo[2], material]
         });
         let depth = gpu.r32(size, |x, y| (1000.0 + pixel_mm * depth_at(x, y).unwrap_or_default()) as f32);
         let inputs = SubsurfaceInputs::new(&irradiance, &surface, &depth);
@@ -187,30 +207,30 @@ const CHOICES: [&str; 4] = [
 ];
 
 #[test]
-fn a_step_edge_has_the_error_that_is_stated() {
+fn edges_have_the_errors_that_are_stated() {
     let gpu = Gpu::open();
     let mean = 3.0;
-    let profiles = profiles();
-    let edges = [0, 1, 2].map(|channel: usize| EdgeSpread::new(&*profiles[channel]));
-    let pixel_mm = mean_radius_mm() / mean;
-    let reach = region(2.0 * mean + 3.0);
-    let exact: Vec<[f64; 3]> = (-reach..reach)
-        .map(|x| [0, 1, 2].map(|channel: usize| edges[channel].at((f64::from(x) + 0.5) * pixel_mm)))
-        .collect();
-    for choice in CHOICES {
-        let compilation = compiled(choice);
-        // Light from beyond the border is missing: 60 pixels hold all but 1e-3 of it.
-        let centre = |phase| [60 + phase, 60];
-        let pictures: Vec<Drawn> = (0..PERIOD)
-            .map(|phase| Drawn::new(&gpu, &compilation, PICTURES[0], mean, 126, centre(phase)))
+    for picture in [PICTURES[0], ALBEDO_EDGE] {
+        let pixel_mm = mean_radius_mm(picture.profile) / mean;
+        let reach = region(2.0 * mean + 3.0);
+        // A pixel takes light as its own surface does.
+        let exact: Vec<[f64; 3]> = (-reach..reach)
+            .map(|x| {
+                let profiles = profiles(picture.profile, (picture.albedo)(x));
+                profiles.map(|profile| EdgeSpread::new(&*profile).at((f64::from(x) + 0.5) * pixel_mm))
+            })
             .collect();
-        let drawn = error(PICTURES[0], &pictures, [reach, PERIOD / 2], |x, _| exact[(x + reach) as usize]);
-        assert_near(
-            "step edge",
-            compilation.estimator(),
-            drawn,
-            stated(&compilation, "step edge", mean).error,
-        );
+        for choice in CHOICES {
+            let compilation = compiled(picture.profile, choice);
+            // Light from beyond the border is missing: 60 pixels hold all but 1e-3 of it.
+            let centre = |phase| [60 + phase, 60];
+            let pictures: Vec<Drawn> = (0..PERIOD)
+                .map(|phase| Drawn::new(&gpu, &compilation, picture, mean, 126, centre(phase)))
+                .collect();
+            let drawn = error(picture, &pictures, [reach, PERIOD / 2], |x, _| exact[(x + reach) as usize]);
+            let what = picture.name;
+            assert_near(what, compilation.estimator(), drawn, stated(&compilation, what, mean).error);
+        }
     }
 }
 
@@ -218,8 +238,8 @@ fn a_step_edge_has_the_error_that_is_stated() {
 fn small_pictures_have_the_errors_that_are_stated() {
     let gpu = Gpu::open();
     let mean = 1.0;
-    let dense = compiled("kernel: Dense");
-    let compilations = CHOICES.map(compiled);
+    let dense = compiled(UNIFORM, "kernel: Dense");
+    let compilations = CHOICES.map(|choice| compiled(UNIFORM, choice));
     for picture in PICTURES {
         let reach = 2.0 * mean + 3.0 + if picture.name == "disc" { 1.5 * mean } else { 0.0 };
         let reach = region(reach);
@@ -239,12 +259,12 @@ fn small_pictures_have_the_errors_that_are_stated() {
 #[test]
 fn what_ends_within_the_picture_has_the_error_that_is_stated() {
     let gpu = Gpu::open();
-    let dense = compiled("kernel: Dense");
+    let dense = compiled(UNIFORM, "kernel: Dense");
     for (picture, mean, side, reach) in [(BALL, 3.0, 60, [24, 24]), (FRAME, 10.0, 130, [10, PERIOD / 2])] {
         let centre = side / 2;
         let exact = Drawn::new(&gpu, &dense, picture, mean, side, [centre; 2]);
         for choice in CHOICES {
-            let compilation = compiled(choice);
+            let compilation = compiled(UNIFORM, choice);
             let pictures: Vec<Drawn> = (0..PERIOD)
                 .map(|phase| Drawn::new(&gpu, &compilation, picture, mean, side + 6, [centre + phase; 2]))
                 .collect();

@@ -20,7 +20,7 @@ pub(crate) fn quality_tokens(report: &QualityReport) -> TokenStream {
     let kernel = format!(" Tap counts of this set's kernel, `{}`, by quality.", report.estimator.name());
     quote! {
         /// Error of this set's kernel: the root mean square difference from the exact result over the pixels of a
-        /// picture, as a fraction of the white level; the largest over step edges, a line, discs, a crease, a ball and a
+        /// picture, as a fraction of the white level; the largest over edges, a line, discs, a crease, a ball and a
         /// frame, where the mean radius of the profile spans 1 to 100 pixels, over channels and materials.
         #[allow(dead_code)]
         pub const KERNEL_ERROR: f64 = #error;

@@ -5,6 +5,7 @@ use subsurface_kernel::constants::FILTER_QUANTILE;
 use crate::gather::curve::quantile;
 use crate::gather::gathered::Rgb;
 use crate::optics::Optics;
+use crate::pictures::scene::Surface;
 
 /// A material at a footprint. Lengths without a unit in their name are in that of the optics.
 #[derive(Clone, Copy, Debug)]
@@ -22,9 +23,23 @@ pub(crate) struct Point<'a> {
 
 impl<'a> Point<'a> {
     pub(crate) fn new(optics: &'a Optics, mean_radius_pixels: f64, in_depth: bool, returned: bool) -> Self {
-        let pixel = optics.mean_radius / mean_radius_pixels;
+        Self::of_pixel(optics, optics.mean_radius / mean_radius_pixels, in_depth, returned)
+    }
+
+    /// The point where a pixel spans `pixel`.
+    fn of_pixel(optics: &'a Optics, pixel: f64, in_depth: bool, returned: bool) -> Self {
         let radius = quantile(&optics.channels[optics.widest].curve, FILTER_QUANTILE).0;
         Self { optics, pixel, filter_radius_pixels: radius / pixel, in_depth, returned }
+    }
+
+    /// The same place where it shows another surface.
+    pub(crate) fn on(&self, surface: Surface) -> Self {
+        let optics = match (surface, &self.optics.others) {
+            (Surface::Own, _) | (_, None) => self.optics,
+            (Surface::Other, Some(others)) => &others[0],
+            (Surface::Both, Some(others)) => &others[1],
+        };
+        Self::of_pixel(optics, self.pixel, self.in_depth, self.returned)
     }
 
     /// (radius, its derivative by u) of the widest channel at the quantile `u`.

@@ -32,12 +32,8 @@ impl<'a> ImportanceSampled<'a> {
         Self { point, taps: taps.collect() }
     }
 
-    /// The pixels of a patch.
-    pub(crate) fn draw(&self, scene: Scene, patch: Patch) -> Vec<Rgb> {
-        patch.pixels().map(|pixel| self.pixel(scene, patch, pixel)).collect()
-    }
-
-    fn pixel(&self, scene: Scene, patch: Patch, pixel: [i32; 2]) -> Rgb {
+    /// A pixel of a patch.
+    pub(crate) fn pixel(&self, scene: Scene, patch: Patch, pixel: [i32; 2]) -> Rgb {
         let [x, y] = patch.in_scene(pixel);
         let own = [scene.light(x, y); 3];
         let (sin, cos) = (TAU * interleaved_gradient_noise(pixel)).sin_cos();

@@ -45,23 +45,31 @@ impl<'a> Interleaved<'a> {
         Self { near: NearField::new(&point), block_ring, point, window, lattice }
     }
 
-    /// The pixels of a patch.
-    pub(crate) fn draw(&self, scene: Scene, patch: Patch) -> Vec<Rgb> {
-        let own = |pixel| {
-            let [x, y] = patch.in_scene(pixel);
-            [scene.light(x, y); 3]
+    /// The pixels of a patch, with the twin that `on` gives for the first and last column of a block.
+    pub(crate) fn draw<'s>(on: &impl Fn([i32; 2]) -> &'s Self, scene: Scene, patch: Patch) -> Vec<Rgb>
+    where
+        'a: 's,
+    {
+        let on_block = |block: [i32; 2]| {
+            let [first, _] = patch.in_scene(block.map(|place| BLOCK_SIDE * place));
+            on([first, first + BLOCK_SIDE - 1])
         };
-        let Some(lattice) = &self.lattice else { return patch.pixels().map(own).collect() };
         // Those of the patch's pixels and the ones around.
         let first = patch.start.map(|start| start.div_euclid(BLOCK_SIDE) - 1);
         let last = patch.start.map(|start| (start + PATCH_SIDE - 1).div_euclid(BLOCK_SIDE) + 1);
         let width = last[0] - first[0] + 1;
         let blocks: Vec<Option<Block>> = (first[1]..=last[1])
             .flat_map(|y| (first[0]..=last[0]).map(move |x| [x, y]))
-            .map(|block| Block::gather(lattice, &self.block_ring, &self.point, scene, patch, block))
+            .map(|block| on_block(block).block(scene, patch, block))
             .collect();
         let block_at = |[x, y]: [i32; 2]| blocks[((y - first[1]) * width + x - first[0]) as usize];
-        patch.pixels().map(|pixel| self.pixel(scene, patch, pixel, &block_at)).collect()
+        let home = |pixel: [i32; 2]| on_block(pixel.map(|place| place.div_euclid(BLOCK_SIDE)));
+        patch.pixels().map(|pixel| home(pixel).pixel(scene, patch, pixel, &block_at)).collect()
+    }
+
+    fn block(&self, scene: Scene, patch: Patch, block: [i32; 2]) -> Option<Block> {
+        let lattice = self.lattice.as_ref()?;
+        Block::gather(lattice, &self.block_ring, &self.point, scene, patch, block)
     }
 
     fn pixel(
@@ -73,6 +81,9 @@ impl<'a> Interleaved<'a> {
     ) -> Rgb {
         let [x, y] = patch.in_scene(pixel);
         let own = [scene.light(x, y); 3];
+        if self.lattice.is_none() {
+            return own;
+        }
         let depth = scene.depth(x, y);
         let home = pixel.map(|place| place.div_euclid(BLOCK_SIDE));
         let [columns, rows] = pixel.map(|place| self.shares_of(place));

@@ -63,13 +63,19 @@ impl<'a> Separable<'a> {
         Self { point, rotated, centre, taps, is_on }
     }
 
-    /// The pixels of a patch.
-    pub(crate) fn draw(&self, scene: Scene, patch: Patch) -> Vec<Rgb> {
-        let mut first = HashMap::new();
-        patch.pixels().map(|pixel| self.pixel(scene, patch, pixel, &mut first)).collect()
-    }
-
-    fn pixel(&self, scene: Scene, patch: Patch, pixel: [i32; 2], first: &mut HashMap<[i32; 2], Rgb>) -> Rgb {
+    /// A pixel of a patch, whose other pixels are known to `on` by the surface that they show; `first` keeps what the first
+    /// pass has made of pixels.
+    pub(crate) fn pixel<'s>(
+        &self,
+        on: &impl Fn([i32; 2]) -> &'s Self,
+        scene: Scene,
+        patch: Patch,
+        pixel: [i32; 2],
+        first: &mut HashMap<[i32; 2], Rgb>,
+    ) -> Rgb
+    where
+        'a: 's,
+    {
         let [x, y] = patch.in_scene(pixel);
         let own = [scene.light(x, y); 3];
         if !self.is_on {
@@ -78,8 +84,8 @@ impl<'a> Separable<'a> {
         let half_way = self.after_first(scene, patch, pixel, first);
         let [along_x, along_y] = self.axis(pixel);
         let second = [-along_y, along_x];
-        let gathered =
-            self.line(scene, patch, pixel, half_way, second, |at| self.after_first(scene, patch, at, first));
+        let gathered = self
+            .line(scene, patch, pixel, half_way, second, |at| on(at).after_first(scene, patch, at, first));
         mixed(own, gathered.diffused(half_way, self.point.returned), self.point.blend())
     }
 

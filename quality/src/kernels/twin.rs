@@ -1,5 +1,7 @@
 //! A kernel at a footprint, whichever it is.
 
+use std::collections::HashMap;
+
 use subsurface_kernel::Estimator;
 use subsurface_kernel::constants::EVEN_WINDOW_TAPS;
 
@@ -10,7 +12,7 @@ use crate::kernels::interleaved::Interleaved;
 use crate::kernels::interleaved::far::far_taps;
 use crate::kernels::separable::Separable;
 use crate::pictures::patch::Patch;
-use crate::pictures::scene::Scene;
+use crate::pictures::scene::{Scene, Surface};
 
 /// A kernel as the processor runs it.
 #[derive(Debug)]
@@ -53,12 +55,38 @@ impl<'a> Twin<'a> {
         }
     }
 
-    /// The pixels of a patch, row by row.
-    pub(crate) fn draw(&self, scene: Scene, patch: Patch) -> Vec<Rgb> {
+    /// The pixels of a patch, row by row; `others` show the material's other surfaces where the scene has some.
+    pub(crate) fn draw(&self, others: &[Self], scene: Scene, patch: Patch) -> Vec<Rgb> {
+        let place = |first: i32, last: i32| match scene.surface(first, last) {
+            Surface::Own => None,
+            Surface::Other => Some(0),
+            Surface::Both => Some(1),
+        };
+        let on = |first: i32, last: i32| place(first, last).and_then(|place: usize| others.get(place));
+        let column = |pixel: [i32; 2]| patch.in_scene(pixel)[0];
         match self {
-            Self::ImportanceSampled(twin) => twin.draw(scene, patch),
-            Self::Separable(twin) => twin.draw(scene, patch),
-            Self::Interleaved(twin) => twin.draw(scene, patch),
+            Self::ImportanceSampled(own) => {
+                let at = |pixel| match on(column(pixel), column(pixel)) {
+                    Some(Self::ImportanceSampled(other)) => other,
+                    _ => own,
+                };
+                patch.pixels().map(|pixel| at(pixel).pixel(scene, patch, pixel)).collect()
+            }
+            Self::Separable(own) => {
+                let at = |pixel| match on(column(pixel), column(pixel)) {
+                    Some(Self::Separable(other)) => other,
+                    _ => own,
+                };
+                let mut first = HashMap::new();
+                patch.pixels().map(|pixel| at(pixel).pixel(&at, scene, patch, pixel, &mut first)).collect()
+            }
+            Self::Interleaved(own) => {
+                let at = |[first, last]: [i32; 2]| match on(first, last) {
+                    Some(Self::Interleaved(other)) => other,
+                    _ => own,
+                };
+                Interleaved::draw(&at, scene, patch)
+            }
         }
     }
 }

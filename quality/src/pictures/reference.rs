@@ -9,7 +9,7 @@ use crate::gather::gathered::{Gathered, Rgb};
 use crate::gather::point::Point;
 use crate::optics::line_spread::edge_spread;
 use crate::pictures::patch::Patch;
-use crate::pictures::scene::Scene;
+use crate::pictures::scene::{Scene, Surface};
 use crease::Crease;
 
 /// Points and weights of Gauss–Legendre quadrature over [-1/2, 1/2], Abramowitz and Stegun, table 25.4.
@@ -44,12 +44,21 @@ pub(crate) fn expected(point: &Point<'_>, scene: Scene, patches: &[Patch]) -> Ve
 fn in_columns(point: &Point<'_>, scene: Scene, pixels: &[[i32; 2]]) -> Vec<Rgb> {
     let first = pixels.iter().map(|[x, _]| *x).min().unwrap_or_default();
     let last = pixels.iter().map(|[x, _]| *x).max().unwrap_or_default();
-    let columns = columns(point, scene, first, last);
-    pixels.iter().map(|[x, _]| columns[(x - first) as usize]).collect()
+    // Each pixel spreads light as its own surface does.
+    let columns = columns_of(point, scene, first, last);
+    let other = match scene {
+        Scene::AlbedoEdge => columns_of(&point.on(Surface::Other), scene, first, last),
+        _ => Vec::new(),
+    };
+    let column = |x: i32| {
+        let place = (x - first) as usize;
+        if scene.surface(x, x) == Surface::Other { other[place] } else { columns[place] }
+    };
+    pixels.iter().map(|[x, _]| column(*x)).collect()
 }
 
 /// The columns from `first` to `last` in a scene whose rows are alike.
-fn columns(point: &Point<'_>, scene: Scene, first: i32, last: i32) -> Vec<Rgb> {
+fn columns_of(point: &Point<'_>, scene: Scene, first: i32, last: i32) -> Vec<Rgb> {
     let by_channel = [0, 1, 2].map(|channel: usize| {
         let profile = &*point.optics.channels[channel].profile;
         // Light from column `from` on arrives in column x.

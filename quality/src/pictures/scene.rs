@@ -1,5 +1,16 @@
 //! The pictures that kernels are tried on. Whole numbers are the centres of pixels, and (0, 0) is a pixel of the feature.
 
+/// Which of a material's surface albedos a surface has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Surface {
+    /// The material's own.
+    Own,
+    /// A part of it.
+    Other,
+    /// The mean of the two, where a block of pixels shows both.
+    Both,
+}
+
 /// What is lit, on which surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Scene {
@@ -14,6 +25,8 @@ pub(crate) enum Scene {
     },
     /// Two planes at a right angle that meet between the columns -1 and 0, white from column 0 on.
     Crease,
+    /// A plane, white from column 0 on, where the other surface albedo begins too.
+    AlbedoEdge,
     /// A plane with one white pixel.
     Pixel,
     /// A small disc that moves over the screen, by up to three pixels along both axes.
@@ -56,7 +69,7 @@ impl Scene {
         let mut all = vec![Self::StepEdge];
         if mean_radius <= LARGEST_OF_SMALL {
             let disc = Self::Disc { radius: 1.5 * mean_radius };
-            all.extend([Self::Line, disc, Self::Crease, Self::Pixel, Self::Pan]);
+            all.extend([Self::Line, disc, Self::Crease, Self::AlbedoEdge, Self::Pixel, Self::Pan]);
         }
         if mean_radius == OF_BALL {
             all.push(Self::Ball { radius: BALL_RADIUS * mean_radius, stripe: BALL_STRIPE * mean_radius });
@@ -74,6 +87,7 @@ impl Scene {
             Self::Line => "line",
             Self::Disc { .. } => "disc",
             Self::Crease => "crease",
+            Self::AlbedoEdge => "albedo edge",
             Self::Pixel => "pixel",
             Self::Pan => "pan",
             Self::Frame { .. } => "frame",
@@ -85,7 +99,7 @@ impl Scene {
     pub(crate) fn light(self, x: i32, y: i32) -> f64 {
         let within = |radius: f64| f64::from(x * x + y * y) <= radius * radius;
         let lit = match self {
-            Self::StepEdge | Self::Crease | Self::Frame { .. } => x >= 0,
+            Self::StepEdge | Self::Crease | Self::AlbedoEdge | Self::Frame { .. } => x >= 0,
             Self::Line => x == 0,
             Self::Disc { radius } => within(radius),
             Self::Pixel => within(0.0),
@@ -113,6 +127,15 @@ impl Scene {
         }
     }
 
+    /// Which surface the columns from `first` to `last` show.
+    pub(crate) fn surface(self, first: i32, last: i32) -> Surface {
+        match self {
+            Self::AlbedoEdge if first >= 0 => Surface::Other,
+            Self::AlbedoEdge if last >= 0 => Surface::Both,
+            _ => Surface::Own,
+        }
+    }
+
     /// Whether it shows a surface everywhere, and one so even that each square of pixels is one surface.
     pub(crate) fn has_whole_squares(self) -> bool {
         !matches!(self, Self::Frame { .. } | Self::Ball { .. })
@@ -122,7 +145,9 @@ impl Scene {
     pub(crate) fn light_of_square(self, [x, y]: [i32; 2], side: i32) -> f64 {
         let columns = f64::from(side);
         match self {
-            Self::StepEdge | Self::Crease => f64::from((x + side).clamp(0, side)) / columns,
+            Self::StepEdge | Self::Crease | Self::AlbedoEdge => {
+                f64::from((x + side).clamp(0, side)) / columns
+            }
             Self::Line => f64::from(u8::from((x..x + side).contains(&0))) / columns,
             _ => {
                 let pixels = (0..side * side).map(|place| self.light(x + place % side, y + place / side));
@@ -141,7 +166,7 @@ impl Scene {
 
     /// Whether all rows are alike.
     pub(crate) fn has_equal_rows(self) -> bool {
-        matches!(self, Self::StepEdge | Self::Line | Self::Crease | Self::Frame { .. })
+        matches!(self, Self::StepEdge | Self::Line | Self::Crease | Self::AlbedoEdge | Self::Frame { .. })
     }
 
     /// Radius of the disc that is lit, if it is one.

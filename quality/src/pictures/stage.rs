@@ -8,13 +8,14 @@ use crate::gather::gathered::Rgb;
 use crate::gather::point::Point;
 use crate::kernels::twin::Twin;
 use crate::pictures::patch::Patch;
-use crate::pictures::scene::Scene;
+use crate::pictures::scene::{Scene, Surface};
 
 /// A material at a footprint. Its pictures share the kernel's taps.
 #[derive(Debug)]
 pub(crate) struct Stage<'a> {
     pub(crate) point: Point<'a>,
-    last: RefCell<Option<(Estimator, Twin<'a>)>>,
+    /// The kernel, on the material's own surface, then on its others.
+    last: RefCell<Option<(Estimator, Vec<Twin<'a>>)>>,
 }
 
 impl<'a> Stage<'a> {
@@ -25,12 +26,18 @@ impl<'a> Stage<'a> {
     /// The pixels of a scene, patch by patch; `None` for `Dense`, which has no twin.
     pub(crate) fn draw(&self, kernel: Estimator, scene: Scene, patches: &[Patch]) -> Option<Vec<Rgb>> {
         let known = self.last.take().filter(|(known, _)| *known == kernel);
-        let twin = match known {
-            Some((_, twin)) => twin,
-            None => Twin::new(kernel, self.point)?,
+        let mut twins = match known {
+            Some((_, twins)) => twins,
+            None => vec![Twin::new(kernel, self.point)?],
         };
-        let pixels = patches.iter().flat_map(|patch| twin.draw(scene, *patch)).collect();
-        self.last.replace(Some((kernel, twin)));
+        if scene == Scene::AlbedoEdge && twins.len() == 1 {
+            for surface in [Surface::Other, Surface::Both] {
+                twins.push(Twin::new(kernel, self.point.on(surface))?);
+            }
+        }
+        let (own, others) = twins.split_first()?;
+        let pixels = patches.iter().flat_map(|patch| own.draw(others, scene, *patch)).collect();
+        self.last.replace(Some((kernel, twins)));
         Some(pixels)
     }
 }
