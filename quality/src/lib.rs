@@ -14,7 +14,7 @@
 //! - *line*: a white line, one pixel wide, on a black plane;
 //! - *disc*: a white disc on a black plane, its radius half as long again as the mean radius of the profile;
 //! - *crease*: two planes that meet at a right angle, each 45° from the view axis, one of them white;
-//! - *albedo edge*: a plane, one half of it white and with three quarters of the surface albedo;
+//! - *albedo edge*: a plane, one half of it white and with a surface albedo less by 15 %;
 //! - *pixel*: one white pixel on a black plane;
 //! - *pan*: a white disc with a radius of 3.5 pixels that moves by one to three pixels along both axes: what matters is how
 //!   much the result differs from what it was before;

@@ -21,7 +21,7 @@ use line_spread::{beyond_line, line_spread};
 use log_table::LogTable;
 
 /// Surface albedo of a material's other surface, as a part of its own: a mole on skin.
-const OTHER_ALBEDO: f64 = 0.75;
+const OTHER_ALBEDO: f64 = 0.85;
 
 /// What a material looks like, but for its size: equal ones are tried once.
 #[derive(Clone, Debug, PartialEq)]

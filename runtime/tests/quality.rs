@@ -89,7 +89,7 @@ const PICTURES: [Picture; 5] = [
 /// A step edge where the surface albedo changes.
 const ALBEDO_EDGE: Picture = Picture {
     profile: TEXTURED,
-    albedo: |x| if x >= 0 { 0.75 } else { 1.0 },
+    albedo: |x| if x >= 0 { 0.85 } else { 1.0 },
     ..Picture::new("albedo edge", |x, _, _| x >= 0, FLAT)
 };
 

@@ -4,8 +4,8 @@
 //
 // A tap is a strip beside the centre. Its weight is the light that a line source sends into the strip: the difference
 // of the profile's edge spread F at the strip's ends, not a sample of the line spread at its middle. The strips hold
-// equal shares of the widest channel, so that no line of pixels stands for much more light than another; the last ones
-// are open.
+// much the same of the widest channel's light, so that no line of pixels stands for much more than another; the last
+// ones are open.
 
 /// Light gathered along `axis` at the point; `is_second` tells the second pass, which reads `blurred`, what the first
 /// one left. The centre's own light counts unless it was not finite.
@@ -35,7 +35,7 @@ fn gather_line(
         let per_beyond = (beyond_start - beyond_end) / max(beyond_line(spread, middle_mm), vec3f(SMALLEST_WEIGHT));
         for (var side = -1.0; side <= 1.0; side += 2.0) {
             let lines = lines_of_strip(point, strip, side * axis, blurred, is_second);
-            let path_mm = sqrt(middle_mm * middle_mm + lines.squared_depth);
+            let path_mm = middle_mm * sqrt(1.0 + lines.squared_slope);
             let weight = per_beyond * beyond_line(spread, path_mm);
             gathered = together(gathered, Gathered(weight * lines.irradiance, weight * lines.weight));
         }
@@ -51,8 +51,8 @@ struct StripLight {
     irradiance: vec3f,
     /// Sum of their weights: 1 where both count in full.
     weight: f32,
-    /// Mean square of their depths off the centre's, in the lengths of its profile, mm².
-    squared_depth: f32,
+    /// Square of the slope from the centre to them: of their depths and of their distances by the mean squares.
+    squared_slope: f32,
 }
 
 /// The lines of a strip in the direction `axis`.
@@ -72,10 +72,12 @@ fn lines_of_strip(
     let near_mm = depth_difference_mm(point, near.distance_mm);
     let far_mm = depth_difference_mm(point, far.distance_mm);
     let weight = near_weight + far_weight;
+    let squared_depth = near_weight * near_mm * near_mm + far_weight * far_mm * far_mm;
+    let distances_mm = vec2f(strip.near, strip.far) * point.pixel_mm;
     return StripLight(
         near_weight * near.irradiance + far_weight * far.irradiance,
         weight,
-        (near_weight * near_mm * near_mm + far_weight * far_mm * far_mm) / max(weight, SMALLEST_WEIGHT),
+        squared_depth / max(0.5 * weight * dot(distances_mm, distances_mm), SMALLEST_WEIGHT),
     );
 }
 

@@ -140,19 +140,20 @@ impl<'a> Separable<'a> {
             let count = found().count() as f64;
             let squares = found().map(|(_, apart)| self.point.depth_pixels(apart).powi(2)).sum::<f64>();
             for (at, _) in found() {
-                let weight = self.weight(tap, (squares / count).sqrt());
+                let weight = self.weight(tap, squares / count);
                 gathered.add(weight.map(|weight| 0.5 * weight), light(at));
             }
         }
         gathered
     }
 
-    /// Weight of a tap that lies `depth` pixels deeper than the centre, or higher.
-    fn weight(&self, tap: &Tap, depth: f64) -> Rgb {
-        if depth == 0.0 {
+    /// Weight of a tap whose lines lie deeper than the centre or higher, with this mean square of the depth in pixels.
+    fn weight(&self, tap: &Tap, squared_depth: f64) -> Rgb {
+        if squared_depth == 0.0 {
             return tap.flat_weight;
         }
-        let beyond = self.point.beyond_line(tap.middle.hypot(depth * self.point.pixel));
+        let squared_lines = 0.5 * tap.strip.lines.map(|line| line * line).iter().sum::<f64>();
+        let beyond = self.point.beyond_line(tap.middle * (1.0 + squared_depth / squared_lines).sqrt());
         std::array::from_fn(|channel| tap.per_beyond[channel] * beyond[channel])
     }
 

@@ -40,9 +40,9 @@ pub fn cost(kernel: Estimator, device: Device) -> f64 {
         // Two stages that each set up a pixel and the integrals of its strips.
         Estimator::Separable { taps, .. } => {
             let line = match device {
-                Device::Rdna => line(5.1, 6.82),
-                Device::Gcn => line(12.3, 16.0),
-                Device::Software => line(42.0, 1.8),
+                Device::Rdna => line(5.4, 7.0),
+                Device::Gcn => line(13.4, 16.4),
+                Device::Software => line(11.0, 3.3),
             };
             (taps, line)
         }

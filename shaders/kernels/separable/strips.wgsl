@@ -22,8 +22,9 @@ fn line_reach_pixels(surface: MaterialSurface, point: SurfacePoint, inside: f32)
     return min(reach_mm / point.pixel_mm, LARGEST_TAP_DISTANCE);
 }
 
-/// Strip `strip` of `strips`, from 1 on, where the last one ended: of what lands beside the centre, `beyond_centre`,
-/// all hold equal shares of the widest channel. But each has one pixel at least, and ends between pixels.
+/// Strip `strip` of `strips`, from 1 on, where the last one ended. Of what lands beside the centre in the widest
+/// channel, `beyond_centre`, the part (1 − k/n)^1.5 lies beyond strip k of n: strips hold much the same, those of the
+/// tail a little less. But each has one pixel at least, and ends between pixels.
 fn next_strip(
     surface: MaterialSurface,
     point: SurfacePoint,
@@ -34,12 +35,16 @@ fn next_strip(
 ) -> Strip {
     // The last one has no end: its middle halves its light.
     let is_last = strip == strips;
-    let place = f32(strip) - select(0.0, 0.5, is_last);
-    let reach = line_reach_pixels(surface, point, 1.0 - beyond_centre * (1.0 - place / f32(strips)));
+    let left = f32(strips - strip) / f32(strips);
+    let last = 1.0 / f32(strips);
+    let beyond = select(left * sqrt(left), 0.5 * last * sqrt(last), is_last);
+    let reach = line_reach_pixels(surface, point, 1.0 - beyond_centre * beyond);
     let end = max(select(floor(reach) + 0.5, 2.0 * reach - start, is_last), start + 1.0);
     let width = end - start;
-    let quarter = select(0.0, 0.25 * width, width >= 2.0);
-    let middle = 0.5 * (start + end);
+    var places = select(EVEN_LINES, OPEN_LINES, is_last) * width;
+    if width < 2.0 {
+        places = vec2f(0.5 * width);
+    }
     // Half a pixel goes outwards on both sides, so that the two lie evenly in the strip.
-    return Strip(start, end, ceil(middle - quarter - 0.5), floor(middle + quarter + 0.5));
+    return Strip(start, end, ceil(start + places.x - 0.5), floor(start + places.y + 0.5));
 }

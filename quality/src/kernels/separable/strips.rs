@@ -1,6 +1,6 @@
 //! Strips of the picture beside a pixel: the twin of `shaders/kernels/separable/strips.wgsl`.
 
-use subsurface_kernel::constants::LARGEST_TAP_DISTANCE;
+use subsurface_kernel::constants::{EVEN_LINES, LARGEST_TAP_DISTANCE, OPEN_LINES};
 
 use crate::gather::point::Point;
 
@@ -25,14 +25,15 @@ pub(crate) fn beside_centre(
     (1..=strips).map(move |strip| {
         // The last one has no end: its middle halves its light.
         let is_last = strip == strips;
-        let place = f64::from(strip) - if is_last { 0.5 } else { 0.0 };
-        let reach = reach(1.0 - beyond_centre * (1.0 - place / f64::from(strips)));
+        let part = |left: u32| (f64::from(left) / f64::from(strips)).powf(1.5);
+        let beyond = if is_last { 0.5 * part(1) } else { part(strips - strip) };
+        let reach = reach(1.0 - beyond_centre * beyond);
         let end = if is_last { 2.0 * reach - start } else { reach.floor() + 0.5 };
         let end = end.max(start + 1.0);
         let width = end - start;
-        let quarter = if width >= 2.0 { 0.25 * width } else { 0.0 };
-        let middle = 0.5 * (start + end);
-        let lines = [(middle - quarter - 0.5).ceil(), (middle + quarter + 0.5).floor()];
+        let places = if is_last { OPEN_LINES } else { EVEN_LINES };
+        let [near, far] = if width < 2.0 { [0.5; 2] } else { places }.map(|place| start + place * width);
+        let lines = [(near - 0.5).ceil(), (far + 0.5).floor()];
         let strip = Strip { start, end, lines };
         start = end;
         strip
