@@ -34,11 +34,8 @@ impl<'a> Point<'a> {
 
     /// The same place where it shows another surface.
     pub(crate) fn on(&self, surface: Surface) -> Self {
-        let optics = match (surface, &self.optics.others) {
-            (Surface::Own, _) | (_, None) => self.optics,
-            (Surface::Other, Some(others)) => &others[0],
-            (Surface::Both, Some(others)) => &others[1],
-        };
+        let others = self.optics.others.as_deref();
+        let optics = surface.place().zip(others).map_or(self.optics, |(place, others)| &others[place]);
         Self::of_pixel(optics, self.pixel, self.in_depth, self.returned)
     }
 

@@ -12,7 +12,7 @@ use crate::kernels::interleaved::Interleaved;
 use crate::kernels::interleaved::far::far_taps;
 use crate::kernels::separable::Separable;
 use crate::pictures::patch::Patch;
-use crate::pictures::scene::{Scene, Surface};
+use crate::pictures::scene::Scene;
 
 /// A kernel as the processor runs it.
 #[derive(Debug)]
@@ -57,12 +57,8 @@ impl<'a> Twin<'a> {
 
     /// The pixels of a patch, row by row; `others` show the material's other surfaces where the scene has some.
     pub(crate) fn draw(&self, others: &[Self], scene: Scene, patch: Patch) -> Vec<Rgb> {
-        let place = |first: i32, last: i32| match scene.surface(first, last) {
-            Surface::Own => None,
-            Surface::Other => Some(0),
-            Surface::Both => Some(1),
-        };
-        let on = |first: i32, last: i32| place(first, last).and_then(|place: usize| others.get(place));
+        let on =
+            |first: i32, last: i32| scene.surface(first, last).place().and_then(|place| others.get(place));
         let column = |pixel: [i32; 2]| patch.in_scene(pixel)[0];
         match self {
             Self::ImportanceSampled(own) => {

@@ -11,6 +11,16 @@ pub(crate) enum Surface {
     Both,
 }
 
+impl Surface {
+    /// Those that are not the material's own, in the order of `place`.
+    pub(crate) const OTHERS: [Self; 2] = [Self::Other, Self::Both];
+
+    /// Its place in `OTHERS`; `None` for the material's own.
+    pub(crate) fn place(self) -> Option<usize> {
+        Self::OTHERS.iter().position(|other| *other == self)
+    }
+}
+
 /// What is lit, on which surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Scene {

@@ -31,7 +31,7 @@ impl<'a> Stage<'a> {
             None => vec![Twin::new(kernel, self.point)?],
         };
         if scene == Scene::AlbedoEdge && twins.len() == 1 {
-            for surface in [Surface::Other, Surface::Both] {
+            for surface in Surface::OTHERS {
                 twins.push(Twin::new(kernel, self.point.on(surface))?);
             }
         }
