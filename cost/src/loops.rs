@@ -59,7 +59,7 @@ impl Loop {
             ("gather_line", 0) => Some(Rounds::Long((taps - 1.0) / 2.0)),
             // Both sides of the centre.
             ("gather_line", 1) => Some(Rounds::Short(2)),
-            ("gather_near" | "gather_far" | "near_share" | "centre_share", _) => None,
+            ("with_near" | "with_far" | "near_share" | "centre_share", _) => None,
             _ => return Err(Failure::UnknownLoop { function: self.function.clone(), place: self.place }),
         })
     }

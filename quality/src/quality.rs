@@ -34,7 +34,7 @@ pub enum Tier {
     Medium,
     /// An error of 0.01.
     High,
-    /// An error of 0.0095.
+    /// An error of 0.009.
     Ultra,
 }
 
@@ -49,7 +49,7 @@ impl Tier {
             Self::Low => 0.04,
             Self::Medium => 0.02,
             Self::High => 0.01,
-            Self::Ultra => 0.0095,
+            Self::Ultra => 0.009,
         }
     }
 

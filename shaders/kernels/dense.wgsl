@@ -29,20 +29,25 @@ fn dense_radius(point: SurfacePoint) -> i32 {
 /// Light of all pixels within the filter radius of the pixel `centre`, whose target is of `size`.
 fn gather_dense(point: SurfacePoint, centre: vec2i, size: vec2i) -> Gathered {
     let radius = dense_radius(point);
-    let near = gather_near(point, centre, size, radius);
-    let around = together(near, gather_far(point, centre, size, radius));
-    let own = input_pixel(centre);
-    if !accepts_material(point, own.material) {
-        return around;
-    }
-    return together(sent_light(point, own, centre, centre_share(point)), around);
+    let near = with_near(centre_light(point, centre), point, centre, size, radius);
+    return with_far(near, point, centre, size, radius);
 }
 
-/// Light of the pixels around the centre whose share is integrated.
-fn gather_near(point: SurfacePoint, centre: vec2i, size: vec2i, radius: i32) -> Gathered {
+/// Light of the centre itself.
+fn centre_light(point: SurfacePoint, centre: vec2i) -> Gathered {
+    let own = input_pixel(centre);
+    if !accepts_material(point, own.material) {
+        return Gathered(vec3f(0.0), vec3f(0.0));
+    }
+    return sent_light(point, own, centre, centre_share(point));
+}
+
+/// Light that was gathered, and that of the pixels around the centre whose share is integrated. One sum goes through
+/// all loops: two would need twice the registers.
+fn with_near(begun: Gathered, point: SurfacePoint, centre: vec2i, size: vec2i, radius: i32) -> Gathered {
     let first = max(centre - DENSE_INTEGRATED, vec2i(0));
     let last = min(centre + DENSE_INTEGRATED, size - 1);
-    var gathered = Gathered(vec3f(0.0), vec3f(0.0));
+    var gathered = begun;
     for (var y = first.y; y <= last.y; y += 1) {
         for (var x = first.x; x <= last.x; x += 1) {
             let apart = vec2i(x, y) - centre;
@@ -57,11 +62,11 @@ fn gather_near(point: SurfacePoint, centre: vec2i, size: vec2i, radius: i32) -> 
     return gathered;
 }
 
-/// Light of the pixels beyond those that are integrated.
-fn gather_far(point: SurfacePoint, centre: vec2i, size: vec2i, radius: i32) -> Gathered {
+/// Light that was gathered, and that of the pixels beyond those that are integrated.
+fn with_far(begun: Gathered, point: SurfacePoint, centre: vec2i, size: vec2i, radius: i32) -> Gathered {
     let first_row = max(centre.y - radius, 0);
     let last_row = min(centre.y + radius, size.y - 1);
-    var gathered = Gathered(vec3f(0.0), vec3f(0.0));
+    var gathered = begun;
     for (var y = first_row; y <= last_row; y += 1) {
         let row = y - centre.y;
         // Half a unit more than the whole number under the root: its rounding cannot pass a whole number.

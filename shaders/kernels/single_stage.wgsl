@@ -1,16 +1,18 @@
-// uses: gather/{footprint, gathered, input, pixel_point}; needs: gather_at, input_surface, subsurface_view
+// uses: gather/{footprint, gathered, input, pixel_point}; needs: gather_at, input_surface, irradiance_at, subsurface_view
 
 /// Diffused irradiance at `pixel`, whose texel of the irradiance is `own`; a pixel that does not scatter keeps it.
-fn diffuse_single_stage(pixel: vec2i, own: vec4f) -> vec4f {
+fn diffuse_single_stage(pixel: vec2i) -> vec4f {
     let surface = input_surface(pixel);
     if surface.material == NO_MATERIAL {
-        return own;
+        return irradiance_at(pixel);
     }
-    let kept = finite_irradiance(own.rgb);
     let point = surface_point_at(pixel, surface);
     if footprint_taps(point, subsurface_view.taps) == 0u {
-        return vec4f(kept, own.a);
+        let own = irradiance_at(pixel);
+        return vec4f(finite_irradiance(own.rgb), own.a);
     }
     let gathered = gather_at(point, pixel);
+    let own = irradiance_at(pixel);
+    let kept = finite_irradiance(own.rgb);
     return vec4f(mix(kept, diffused_irradiance(gathered, kept), footprint_blend(point)), own.a);
 }

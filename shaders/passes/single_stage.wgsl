@@ -6,5 +6,5 @@
 @fragment
 fn subsurface_fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let pixel = viewport_position(subsurface_view, position);
-    return diffuse_single_stage(pixel, irradiance_at(pixel));
+    return diffuse_single_stage(pixel);
 }

@@ -8,6 +8,5 @@ fn subsurface_compute(@builtin(workgroup_id) group: vec3u, @builtin(local_invoca
     if tile == 0u || !is_inside(pixel) {
         return;
     }
-    let own = irradiance_at(pixel);
-    textureStore(diffused_target, texture_position(pixel), diffuse_single_stage(pixel, own));
+    textureStore(diffused_target, texture_position(pixel), diffuse_single_stage(pixel));
 }

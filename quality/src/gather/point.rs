@@ -44,9 +44,9 @@ impl<'a> Point<'a> {
         quantile(&self.optics.channels[self.optics.widest].curve, u)
     }
 
-    /// Density per area at a radius > 0.
-    pub(crate) fn area_pdf(&self, radius: f64) -> Rgb {
-        self.optics.densities.at(radius)
+    /// Density per area at the root of a squared radius > 0.
+    pub(crate) fn area_pdf_at_squared(&self, squared: f64) -> Rgb {
+        self.optics.densities.at_squared(squared)
     }
 
     /// Fraction of the light within a radius.

@@ -49,8 +49,8 @@ impl Tap {
             return self.flat_weight;
         }
         let depth = depth * point.pixel;
-        let path = (self.radius * self.radius + depth * depth).sqrt();
-        point.area_pdf(path).map(|density| weight(density, self.per_density))
+        let squared = self.radius * self.radius + depth * depth;
+        point.area_pdf_at_squared(squared).map(|density| weight(density, self.per_density))
     }
 }
 

@@ -77,7 +77,7 @@ fn a_crease_is_the_sum_of_its_pixels() {
                 for within in 0..16 {
                     let offset = |place: i32, within: i32| f64::from(place) + f64::from(within) / 4.0 - 0.375;
                     let across = offset(right, within % 4).hypot(offset(down, within / 4));
-                    let density = point.area_pdf(across.hypot(depth) * point.pixel);
+                    let density = point.area_pdf_at_squared((across.hypot(depth) * point.pixel).powi(2));
                     for channel in 0..3 {
                         share[channel] += density[channel] * point.pixel * point.pixel / 16.0;
                     }

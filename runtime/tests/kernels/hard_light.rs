@@ -173,6 +173,6 @@ fn no_pixel_of_a_balls_rim_is_left_as_it_was() {
     for (radius_mm, left, worst) in found {
         assert_eq!(left, 0, "ball of {radius_mm} mm");
         // A rim pixel lies deeper than all that its window mixes; where little is near, each of it counts for much.
-        assert!(worst < 0.2, "ball of {radius_mm} mm: {worst:.3}");
+        assert!(worst < 0.16, "ball of {radius_mm} mm: {worst:.3}");
     }
 }

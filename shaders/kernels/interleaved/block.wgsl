@@ -2,10 +2,10 @@
 
 // Blocks of 2×2 pixels share one far field.
 
-/// The pixels of a block that are of its first translucent pixel's material and depth, as one surface.
+/// The pixels of a block that are of its nearest translucent pixel's material and depth, as one surface.
 struct Block {
-    /// The first of them.
-    first_pixel: vec2i,
+    /// The nearest of them.
+    nearest_pixel: vec2i,
     /// Mean position, pixels.
     position: vec2f,
     /// Material number, or NO_MATERIAL where no pixel of the block is translucent.
@@ -57,52 +57,45 @@ fn pixels_of_block(pixels: texture_2d<u32>, block: vec2i) -> BlockPixels {
     );
 }
 
-/// The first translucent pixel of four, or the last one where none is.
-fn first_translucent(pixels: BlockPixels) -> BlockPixel {
-    if pixels.a.surface.material != NO_MATERIAL {
-        return pixels.a;
+/// The nearest translucent pixel of four; any where none is.
+fn nearest_translucent(pixels: BlockPixels) -> BlockPixel {
+    var nearest = pixels.a;
+    if !hides(nearest.surface, pixels.b.surface) {
+        nearest = pixels.b;
     }
-    if pixels.b.surface.material != NO_MATERIAL {
-        return pixels.b;
+    if !hides(nearest.surface, pixels.c.surface) {
+        nearest = pixels.c;
     }
-    if pixels.c.surface.material != NO_MATERIAL {
-        return pixels.c;
+    if !hides(nearest.surface, pixels.d.surface) {
+        nearest = pixels.d;
     }
-    return pixels.d;
+    return nearest;
 }
 
-/// 1 for a pixel of the block's surface `first`, 0 for another; `per_mm` is the `depth_scale` there.
-fn membership(pixel: BlockPixel, first: InputSurface, per_mm: f32) -> f32 {
-    if pixel.surface.material != first.material {
-        return 0.0;
-    }
-    return sign(depth_agreement(apart_in_depth(per_mm, pixel.surface.distance_mm, first.distance_mm)));
-}
-
-/// The pixels of a block that are of its first translucent pixel's material and depth, as one surface.
+/// The pixels of a block that are of its nearest translucent pixel's material and depth, as one surface.
 fn block_of(block: vec2i, pixels: BlockPixels) -> Block {
-    let first_pixel = first_translucent(pixels);
-    let first = first_pixel.surface;
-    if first.material == NO_MATERIAL {
+    let nearest_pixel = nearest_translucent(pixels);
+    let nearest = nearest_pixel.surface;
+    if nearest.material == NO_MATERIAL {
         return Block(vec2i(0), vec2f(0.0), NO_MATERIAL, 0.0, vec3f(0.0), 1.0);
     }
-    let per_mm = depth_scale(span_mm(subsurface_view, first.distance_mm));
+    let reach_mm = BLOCK_DEPTH_PIXELS * span_mm(subsurface_view, nearest.distance_mm);
     let members = vec4f(
-        membership(pixels.a, first, per_mm),
-        membership(pixels.b, first, per_mm),
-        membership(pixels.c, first, per_mm),
-        membership(pixels.d, first, per_mm),
+        membership(pixels.a.surface, nearest, reach_mm),
+        membership(pixels.b.surface, nearest, reach_mm),
+        membership(pixels.c.surface, nearest, reach_mm),
+        membership(pixels.d.surface, nearest, reach_mm),
     );
     let shares = members / dot(members, vec4f(1.0));
-    let surface = material_table[first.material].surface;
+    let surface = material_table[nearest.material].surface;
     let surface_albedo = shares.x * texel_surface_albedo(pixels.a.surface_texel, surface)
         + shares.y * texel_surface_albedo(pixels.b.surface_texel, surface)
         + shares.z * texel_surface_albedo(pixels.c.surface_texel, surface)
         + shares.w * texel_surface_albedo(pixels.d.surface_texel, surface);
     return Block(
-        first_pixel.position,
+        nearest_pixel.position,
         vec2f(BLOCK_SIDE * block) + vec2f(shares.y + shares.w, shares.z + shares.w),
-        first.material,
+        nearest.material,
         dot(
             shares,
             vec4f(

@@ -58,7 +58,7 @@ fn texel_of_block(pixels: texture_2d<u32>, coarse: texture_2d<u32>, block: vec2i
     }
     let point = surface_point(
         subsurface_view,
-        surface.first_pixel,
+        surface.nearest_pixel,
         surface.position,
         surface.material,
         material_table[surface.material],

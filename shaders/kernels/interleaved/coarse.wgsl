@@ -1,4 +1,4 @@
-// uses: gather/{input, packed_pixel}; needs: is_inside, subsurface_view
+// uses: gather/{input, packed_pixel, view}, kernel/constants, kernels/interleaved/agreement; needs: is_inside, subsurface_view
 
 // The squares in a texture, packed as pixels are:
 //
@@ -28,8 +28,7 @@ fn pack_square(square: InputPixel) -> vec2u {
     return pack_lit_surface(InputSurface(square.distance_mm, square.material), square.irradiance);
 }
 
-/// The words of a block whose pixels make `square`, and whose first translucent one shows `surface`: a block that
-/// gives no light takes some.
+/// The words of a block whose pixels make `square`, and show `surface`: a block that gives no light takes some.
 fn pack_block(surface: InputSurface, square: InputPixel) -> vec2u {
     if square.material != surface.material {
         return vec2u(NO_LIGHT, pack_surface(surface));
@@ -37,18 +36,34 @@ fn pack_block(surface: InputSurface, square: InputPixel) -> vec2u {
     return pack_square(square);
 }
 
-/// The first of four surfaces that has a material, or the last where none has.
-fn first_surface(a: InputSurface, b: InputSurface, c: InputSurface, d: InputSurface) -> InputSurface {
-    if a.material != NO_MATERIAL {
-        return a;
+/// The nearest of four surfaces; none where none has a material.
+fn nearest_surface(a: InputSurface, b: InputSurface, c: InputSurface, d: InputSurface) -> InputSurface {
+    var nearest = a;
+    if !hides(nearest, b) {
+        nearest = b;
     }
-    if b.material != NO_MATERIAL {
-        return b;
+    if !hides(nearest, c) {
+        nearest = c;
     }
-    if c.material != NO_MATERIAL {
-        return c;
+    if !hides(nearest, d) {
+        nearest = d;
     }
-    return d;
+    return nearest;
+}
+
+/// The surface of a block's pixels `a` to `d`, none where none has a material: of the nearest one's material, and as
+/// deep as those that belong to that are in the mean. What lies behind goes on into the blocks around.
+fn surface_of_block(a: InputSurface, b: InputSurface, c: InputSurface, d: InputSurface) -> InputSurface {
+    let nearest = nearest_surface(a, b, c, d);
+    let reach_mm = BLOCK_DEPTH_PIXELS * span_mm(subsurface_view, nearest.distance_mm);
+    let members = vec4f(
+        membership(a, nearest, reach_mm),
+        membership(b, nearest, reach_mm),
+        membership(c, nearest, reach_mm),
+        membership(d, nearest, reach_mm),
+    );
+    let distances = vec4f(a.distance_mm, b.distance_mm, c.distance_mm, d.distance_mm);
+    return InputSurface(dot(members, distances) / dot(members, vec4f(1.0)), nearest.material);
 }
 
 /// The surface of a block; none outside of the target.

@@ -35,7 +35,7 @@ fn square_of_block(packed: PackedBlock) -> InputPixel {
 /// The words of `block`.
 fn packed_block(pixels: texture_2d<u32>, block: vec2i) -> vec2u {
     let packed = load_packed_block(pixels, block);
-    let surface = first_surface(
+    let surface = surface_of_block(
         unpack_surface(packed.a.y),
         unpack_surface(packed.b.y),
         unpack_surface(packed.c.y),

@@ -22,14 +22,14 @@ fn pack_input(position: vec2i) -> PackedInput {
     return PackedInput(surface, InputPixel(finite_irradiance(texel.rgb), surface.distance_mm, material));
 }
 
-/// Packs a block and its pixels: the first translucent surface, and the light of all.
+/// Packs a block and its pixels: its surface, and the light of all.
 fn pack_inputs_of_block(block: vec2i) -> PackedInput {
     let first = BLOCK_SIDE * block;
     let a = pack_input(first);
     let b = pack_input(first + vec2i(1, 0));
     let c = pack_input(first + vec2i(0, 1));
     let d = pack_input(first + vec2i(1, 1));
-    let surface = first_surface(a.surface, b.surface, c.surface, d.surface);
+    let surface = surface_of_block(a.surface, b.surface, c.surface, d.surface);
     let light = mean_pixel(a.light, b.light, c.light, d.light, 1.0);
     // Below the last row lie the squares of 4×4 pixels.
     if block.y < block_rows() {

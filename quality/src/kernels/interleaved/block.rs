@@ -20,14 +20,12 @@ pub(crate) struct Block {
     pub(crate) depth: f64,
 }
 
-/// The pixels of a block that are of its first surface, as one.
+/// The pixels of a block that are of its nearest surface, as one.
 struct Surface {
     /// Their mean position in the scene.
     position: [f64; 2],
     /// Their mean distance, pixels.
     depth: f64,
-    /// Distance of the first, pixels.
-    first_depth: f64,
 }
 
 impl Surface {
@@ -36,17 +34,17 @@ impl Surface {
         let pixels =
             [[0, 0], [1, 0], [0, 1], [1, 1]].map(|[right, down]| [first[0] + right, first[1] + down]);
         let shown = || pixels.into_iter().filter(|[x, y]| scene.covers(*x, *y));
-        let first_depth = shown().next().map(|[x, y]| scene.depth(x, y))?;
+        let nearest = shown().map(|[x, y]| scene.depth(x, y)).reduce(f64::min)?;
         let (mut position, mut depth, mut count) = ([0.0; 2], 0.0, 0.0);
         for [x, y] in shown() {
             let own = scene.depth(x, y);
-            if depth_agreement(point.depth_pixels(own - first_depth)) > 0.0 {
+            if depth_agreement(point.depth_pixels(own - nearest)) > 0.0 {
                 position = [position[0] + f64::from(x), position[1] + f64::from(y)];
                 depth += own;
                 count += 1.0;
             }
         }
-        Some(Self { position: position.map(|sum| sum / count), depth: depth / count, first_depth })
+        Some(Self { position: position.map(|sum| sum / count), depth: depth / count })
     }
 }
 
@@ -68,6 +66,6 @@ impl Block {
         far.add_share(&sampled, point.blend());
         far.add_share(&ring.gather(point, scene, patch, block, surface.depth), point.blend());
         let square = Square::whole(point, scene, first, BLOCK_SIDE);
-        Some(Self { far, depth: square.map_or(surface.first_depth, |square| square.depth) })
+        Some(Self { far, depth: square.map_or(surface.depth, |square| square.depth) })
     }
 }
