@@ -1,6 +1,6 @@
 //! A material on its way from its file: names are resolved, and nothing is converted yet.
 
-use crate::material::ResolvedProfile;
+use crate::material::{ResolvedProfile, Transmittance};
 use crate::schema::{LengthGiven, Triple};
 use crate::source::{Span, Spanned};
 
@@ -16,4 +16,6 @@ pub(crate) struct Draft<'a> {
     pub(crate) reflectance_at_normal: Option<&'a Spanned<f64>>,
     pub(crate) roughness: Option<&'a Spanned<f64>>,
     pub(crate) transmission_strength: Option<&'a Spanned<f64>>,
+    pub(crate) transmittance: Option<&'a Spanned<Transmittance>>,
+    pub(crate) thin_thickness_mm: Option<&'a Spanned<f64>>,
 }

@@ -46,6 +46,8 @@ pub(crate) fn manifest(of: &ManifestOf<'_>, module: &Module, reflection: &Reflec
                     "roughness": material.roughness,
                 },
                 "transmission_strength": material.transmission_strength,
+                "transmittance": material.transmittance.name(),
+                "thin_thickness_mm": material.thin_thickness_mm,
             })
         })
         .collect();

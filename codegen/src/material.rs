@@ -2,12 +2,14 @@
 
 use std::collections::BTreeMap;
 
-use subsurface_profile::Model;
+use subsurface_profile::{Length, Model};
 
+use crate::lint::diffuse_per_mean_free_path;
 use crate::quality_request::QualityRequest;
 use crate::source::Span;
 use subsurface_kernel::Estimator;
 use subsurface_kernel::Rejection;
+use subsurface_quality::gather::curve::LARGEST_SURFACE_ALBEDO;
 
 /// Everything a kernel needs to know of one material. All values are checked: finite, in range, representable in
 /// `f32`.
@@ -28,10 +30,67 @@ pub struct Material {
     pub reflectance_at_normal: f64,
     /// Perceptual roughness of the specular lobe, in [0, 1].
     pub roughness: f64,
-    /// Factor on the light that comes through thin parts, ≥ 0; 1 is the model's own transmittance.
+    /// Factor on the light that comes through thin parts, ≥ 0; 1 is what `transmittance` says.
     pub transmission_strength: f64,
+    /// How much light comes through thin parts.
+    pub transmittance: Transmittance,
+    /// Thickness of a material that is a sheet, in mm, > 0; `None` for one that fills what it bounds.
+    pub thin_thickness_mm: Option<f64>,
     /// The word `Material` in the file that declares it.
     pub span: Span,
+}
+
+impl Material {
+    /// Mean free path ℓ = 1/σt per channel, in mm, by which a slab's light falls.
+    ///
+    /// Where the material gives the diffuse one, that of its own surface albedo; one above 0.999 counts as 0.999, as it
+    /// does for the profile's curves: at 1 the diffuse mean free path has no end.
+    #[must_use]
+    pub fn slab_mean_free_path_mm(&self) -> [f64; 3] {
+        let length = self.mean_free_path_mm;
+        match self.profile.model.length() {
+            Length::MeanFreePath => length,
+            Length::DiffuseMeanFreePath => [0, 1, 2].map(|channel: usize| {
+                length[channel]
+                    / diffuse_per_mean_free_path(self.surface_albedo[channel].min(LARGEST_SURFACE_ALBEDO))
+            }),
+        }
+    }
+}
+
+/// How much light comes through a thickness of a material.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Transmittance {
+    /// As much as through a slab: [`Slab`](subsurface_profile::Slab).
+    Slab,
+    /// The share of the profile's light beyond that radius, times the surface albedo: A·(1 − cdf(t)), which is what
+    /// Jimenez et al. 2010 and those after them take. Two to seven times darker than a slab some mean free paths thick.
+    Profile,
+}
+
+impl Transmittance {
+    /// All of them.
+    pub const ALL: [Self; 2] = [Self::Slab, Self::Profile];
+
+    /// The word in RON.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Slab => "Slab",
+            Self::Profile => "Profile",
+        }
+    }
+
+    /// The one of this name.
+    pub(crate) fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|law| law.name() == name)
+    }
+
+    /// What a material with this model has if it does not say: a slab, where the model's lengths are those of the
+    /// medium.
+    pub(crate) fn of_model(model: &Model) -> Self {
+        if model.dependence().on_length() { Self::Slab } else { Self::Profile }
+    }
 }
 
 /// A profile model with its origin.

@@ -7,7 +7,7 @@ use std::fmt::Write as _;
 use subsurface_profile::ModelKind;
 
 use crate::curves::CurvePlace;
-use crate::material::Material;
+use crate::material::{Material, Transmittance};
 use crate::model_row::{ModelsInUse, Shared, constant, structure};
 use crate::value::Value;
 
@@ -32,11 +32,15 @@ pub(crate) fn row(
     shared: &mut Shared,
 ) -> Value {
     let (number, coefficients) = models.row(&material.profile.model, shared);
+    let is_slab = material.transmittance == Transmittance::Slab || material.thin_thickness_mm.is_some();
+    let slab_length = if is_slab { material.slab_mean_free_path_mm() } else { [0.0; 3] };
     let surface = Value::Struct(vec![
         ("mean_free_path_mm", Value::vector(material.mean_free_path_mm)),
         ("model", Value::U32(number)),
         ("surface_albedo", Value::vector(material.surface_albedo)),
         ("reflectance_at_normal", Value::scalar(material.reflectance_at_normal)),
+        ("slab_mean_free_path_mm", Value::vector(slab_length)),
+        ("thin_thickness_mm", Value::scalar(material.thin_thickness_mm.unwrap_or_default())),
         ("roughness", Value::scalar(material.roughness)),
         ("transmission_strength", Value::scalar(material.transmission_strength)),
         ("first_curve", Value::U32(place.first_curve)),

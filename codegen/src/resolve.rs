@@ -11,7 +11,7 @@ use crate::diagnostics::Diagnostic;
 use crate::draft::Draft;
 use crate::identifier::{self, camel_case, screaming_case};
 use crate::lint;
-use crate::material::{Material, ResolvedProfile};
+use crate::material::{Material, ResolvedProfile, Transmittance};
 use crate::quality_request::QualityRequest;
 use crate::schema::{
     Given, LengthGiven, MaterialFile, ProfileExpression, ProfileFile, SET, SetFile, Triple, rounded,
@@ -76,6 +76,8 @@ struct Inherited<'a> {
     reflectance_at_normal: &'a Given<Spanned<f64>>,
     roughness: &'a Given<Spanned<f64>>,
     transmission_strength: &'a Given<Spanned<f64>>,
+    transmittance: &'a Given<Spanned<Transmittance>>,
+    thin_thickness_mm: &'a Given<Spanned<f64>>,
     /// Whether every base exists.
     complete: bool,
 }
@@ -228,6 +230,8 @@ impl Resolution {
             reflectance_at_normal: &material.reflectance_at_normal,
             roughness: &material.roughness,
             transmission_strength: &material.transmission_strength,
+            transmittance: &material.transmittance,
+            thin_thickness_mm: &material.thin_thickness_mm,
             complete: true,
         };
         let mut seen = BTreeSet::from([material.file]);
@@ -250,6 +254,8 @@ impl Resolution {
                 reflectance_at_normal: first(inherited.reflectance_at_normal, &next.reflectance_at_normal),
                 roughness: first(inherited.roughness, &next.roughness),
                 transmission_strength: first(inherited.transmission_strength, &next.transmission_strength),
+                transmittance: first(inherited.transmittance, &next.transmittance),
+                thin_thickness_mm: first(inherited.thin_thickness_mm, &next.thin_thickness_mm),
                 complete: true,
             };
             current = next;
@@ -276,13 +282,17 @@ impl Resolution {
         let (profile, profile_name) = profile?;
         let length = inherited.length.value()?;
         let surface_albedo = inherited.surface_albedo.value()?;
-        let optional_is_bad =
-            [inherited.reflectance_at_normal, inherited.roughness, inherited.transmission_strength]
-                .iter()
-                .any(|field| field.is_bad());
+        let numbers = [
+            inherited.reflectance_at_normal,
+            inherited.roughness,
+            inherited.transmission_strength,
+            inherited.thin_thickness_mm,
+        ];
+        let optional_is_bad = inherited.transmittance.is_bad() || numbers.iter().any(|field| field.is_bad());
         let usable = self.check_length(&profile, length, surface_albedo, profile_name)
             && self.check_profile(&profile, length, surface_albedo, profile_name);
-        (usable && inherited.complete && !optional_is_bad).then_some(Draft {
+        let fits = self.check_thin(inherited.transmittance.value(), inherited.thin_thickness_mm.value());
+        (usable && fits && inherited.complete && !optional_is_bad).then_some(Draft {
             name: &material.name.value,
             profile,
             profile_name,
@@ -291,6 +301,8 @@ impl Resolution {
             reflectance_at_normal: inherited.reflectance_at_normal.value(),
             roughness: inherited.roughness.value(),
             transmission_strength: inherited.transmission_strength.value(),
+            transmittance: inherited.transmittance.value(),
+            thin_thickness_mm: inherited.thin_thickness_mm.value(),
         })
     }
 
@@ -397,7 +409,7 @@ impl Resolution {
         let mut diagnostic = Diagnostic::error("this profile takes the mean free path, not the diffuse one")
             .label(length.key.clone(), "the profile is not parametrized by this length")
             .help(format!(
-                "with ℓ = ℓ_d √(3 (1 - α)) and this surface albedo, write `mean_free_path_mm: ({})`",
+                "with ℓ = ℓ_d √(3 (1 - α)/(2 - α)) and this surface albedo, write `mean_free_path_mm: ({})`",
                 converted.join(", ")
             ))
             .help("or use a profile that takes it: `\"burley_dmfp\"`");
@@ -438,6 +450,20 @@ impl Resolution {
         false
     }
 
+    /// Whether the law of transmittance is one that a sheet can have.
+    fn check_thin(&mut self, law: Option<&Spanned<Transmittance>>, thin: Option<&Spanned<f64>>) -> bool {
+        let (Some(law), Some(thin)) = (law.filter(|law| law.value == Transmittance::Profile), thin) else {
+            return true;
+        };
+        self.diagnostics.push(
+            Diagnostic::error("a thin sheet lets through what a slab does")
+                .label(law.span.clone(), "this law is for what is thick")
+                .secondary(thin.span.clone(), "the sheet is given here")
+                .help("remove `transmittance: Profile`, or remove `thin`"),
+        );
+        false
+    }
+
     fn depends(&mut self, file: FileId, on: FileId) {
         self.dependencies.entry(file).or_default().insert(on);
     }
@@ -453,6 +479,10 @@ fn finish(file: &MaterialFile, draft: Draft<'_>) -> Material {
         reflectance_at_normal: number(draft.reflectance_at_normal, DEFAULT_REFLECTANCE_AT_NORMAL),
         roughness: number(draft.roughness, DEFAULT_ROUGHNESS),
         transmission_strength: number(draft.transmission_strength, DEFAULT_TRANSMISSION_STRENGTH),
+        transmittance: draft
+            .transmittance
+            .map_or_else(|| Transmittance::of_model(&draft.profile.model), |law| law.value),
+        thin_thickness_mm: draft.thin_thickness_mm.map(|thickness| thickness.value),
         span: file.head.clone(),
         profile: draft.profile,
     }

@@ -5,7 +5,7 @@ use subsurface_codegen::{Loaded, load_memory, profile_file_text};
 use subsurface_profile::ModelKind;
 
 /// Pieces that material files are made of, and some that they are not.
-const PIECES: [&str; 64] = [
+const PIECES: [&str; 67] = [
     "Material",
     "MaterialSet",
     "kernel",
@@ -33,6 +33,9 @@ const PIECES: [&str; 64] = [
     "reflectance_at_normal",
     "roughness",
     "transmission_strength",
+    "transmittance",
+    "thin",
+    "thickness_mm",
     "version",
     "name",
     "base",

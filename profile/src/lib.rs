@@ -67,6 +67,7 @@ mod radial_data;
 mod radial_profile;
 mod shared_constant;
 pub mod single_scattering_albedo;
+mod slab;
 mod tabulated;
 mod two_exponential_dipole;
 
@@ -88,5 +89,6 @@ pub use quantity::{Bounds, Quantity, rounded};
 pub use radial_data::{RadialData, RadialDataError, RadialRow};
 pub use radial_profile::RadialProfile;
 pub use shared_constant::{SHARED_CONSTANTS, SharedConstant};
+pub use slab::Slab;
 pub use tabulated::{TabulatedError, TabulatedKnot, TabulatedModel, TabulatedProfile};
 pub use two_exponential_dipole::{TwoExponentialDipoleModel, TwoExponentialDipoleProfile};

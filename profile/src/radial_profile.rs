@@ -55,10 +55,13 @@ pub trait RadialProfile: Debug + Send + Sync {
         self.sample_radius(quantile)
     }
 
-    /// Fraction of the energy arriving on the far side of a slab of `thickness_mm`: A·(1 - `radial_cdf`).
+    /// What Jimenez et al. 2010 and those after them take for the light that comes through `thickness_mm`:
+    /// A·(1 - `radial_cdf`).
     ///
     /// A point at depth t below a uniformly lit plane receives ∫ R(√(r² + t²)) 2πr dr. With ρ² = r² + t²,
-    /// r dr = ρ dρ, this is ∫ R(ρ) 2πρ dρ over ρ > t: the tail of the profile, for any model.
+    /// r dr = ρ dρ, this is ∫ R(ρ) 2πρ dρ over ρ > t: the tail of the profile, for any model. It is the light of a
+    /// half-space at that distance; a slab lets two to seven times more through where it is some mean free paths
+    /// thick, see [`Slab`](crate::Slab).
     fn transmittance(&self, thickness_mm: f64) -> f64 {
         self.surface_albedo() * self.radial_tail(thickness_mm)
     }

@@ -1,6 +1,6 @@
 //! Coefficients of formulas that have a twin in WGSL: the compiler declares them there.
 
-use crate::{dipole, single_scattering_albedo};
+use crate::{dipole, single_scattering_albedo, slab};
 
 /// Coefficients that stand in Rust and in WGSL.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,5 +30,10 @@ pub const SHARED_CONSTANTS: &[SharedConstant] = &[
         name: "INTERNAL_REFLECTANCE_BELOW_1",
         docs: "F_dr below η = 1, as coefficients of 1, η⁻¹, η⁻² and η⁻³ (Egan and Hilgeman 1979).",
         values: &dipole::INTERNAL_REFLECTANCE_BELOW_1,
+    },
+    SharedConstant {
+        name: "SLAB_STRENGTH",
+        docs: "s₁, s₂, s₃ of a slab's strength: k = 2 (1 + s₁A) / (1 + s₂A + s₃A²).",
+        values: &slab::STRENGTH,
     },
 ];

@@ -70,6 +70,15 @@ pub fn to_surface_albedo(entry: Entry, single_scattering_albedo: f64) -> f64 {
     if alpha == 1.0 { 1.0 } else { surface_albedo.clamp(0.0, 1.0) }
 }
 
+/// ℓ_d/ℓ of a medium whose single-scattering albedo is α: the diffuse mean free path 1/σtr over the mean free path 1/σt.
+///
+/// σtr = √(σa/D) with D = (σt + σa)/(3σt²) (\[CB15\] eq. 7, after Grosjean), so ℓ_d/ℓ = √((2 - α)/(3(1 - α))): infinite
+/// at α = 1.
+pub fn diffuse_per_mean_free_path(single_scattering_albedo: f64) -> f64 {
+    let absorption = 1.0 - single_scattering_albedo;
+    ((1.0 + absorption) / (3.0 * absorption)).sqrt()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

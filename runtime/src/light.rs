@@ -12,8 +12,9 @@ pub const LIGHT_CAPACITY: usize = subsurface_kernel::constants::LIGHT_CAPACITY a
 /// Radius of the shadow filter, mm: the penumbra of a large lamp behind a nose.
 const SHADOW_RADIUS_MM: f32 = 1.0;
 
-/// Radius over which thickness is averaged, mm: about a mean free path of skin, below what its profile resolves.
-const THICKNESS_RADIUS_MM: f32 = 1.5;
+/// Radius over which what comes through is averaged, mm: a third of a mean free path of skin, so that the facets of a
+/// mesh blur and a fingertip stays as thick as it is.
+const THICKNESS_RADIUS_MM: f32 = 0.3;
 
 /// The shaders hold as many lights.
 const _: fn(&kernel::GBufferFrame) -> &[kernel::Light; LIGHT_CAPACITY] = |frame| &frame.lights;
@@ -74,6 +75,7 @@ impl DirectionalLight {
             Mat4::from_translation(Vec3::new(0.5, 0.5, 0.0)) * Mat4::from_scale(Vec3::new(0.5, -0.5, 1.0));
         let diameter = 2.0 * bounds.radius;
         let texel = diameter / shadow_map_size as f32;
+        let thickness_radius = THICKNESS_RADIUS_MM / millimetres_per_world_unit;
         // A filter narrower than a texel and a half would show the map's steps.
         let filter_radius = (SHADOW_RADIUS_MM / millimetres_per_world_unit).max(1.5 * texel);
         kernel::Light {
@@ -84,9 +86,10 @@ impl DirectionalLight {
             shadow_filter_radius: filter_radius / diameter,
             // The filter reaches past a texel's centre by its own radius on a surface seen at a slant.
             shadow_normal_offset: 2.0 * texel + filter_radius,
-            thickness_filter_radius: THICKNESS_RADIUS_MM / millimetres_per_world_unit,
+            thickness_filter_radius: thickness_radius,
+            // A texel's neighbours, and half the disc: a rim as round as that stays outside.
+            thickness_normal_offset: 1.5 * texel + 0.5 * thickness_radius,
             millimetres_per_world_unit,
-            padding_108: [0; 4],
         }
     }
 }

@@ -6,7 +6,7 @@ mod gpu;
 
 use gpu::{Gpu, model, stems, table_files, test_profile_files};
 use subsurface_codegen::{Compiler, Pass};
-use subsurface_profile::{Channel, Medium};
+use subsurface_profile::{Channel, Medium, Slab};
 
 const TWINS: Pass = Pass { name: "twins", text: include_str!("twins.wgsl"), entry_points: &["twins"] };
 
@@ -27,6 +27,8 @@ struct Answer {
     radial_pdf: f32,
     radial_cdf: f32,
     transmittance: f32,
+    slab_transmittance: f32,
+    slab_reflectance: f32,
     sample_radius: f32,
 }
 
@@ -100,13 +102,13 @@ fn hold_against_f64(stems: &[&str], lengths_mm: &[f64]) {
                             u,
                         });
                     }
-                    profiles.push((stem, profile));
+                    profiles.push((stem, profile, Slab::new(medium)));
                 }
             }
         }
         let answers = ask(&gpu, stems, mean_free_path_mm, &queries);
-        let mut worst = [0.0_f64; 5];
-        for ((query, answer), (stem, profile)) in queries
+        let mut worst = [0.0_f64; 6];
+        for ((query, answer), (stem, profile, slab)) in queries
             .iter()
             .zip(&answers)
             .zip(profiles.iter().flat_map(|p| std::iter::repeat_n(p, QUANTILES.len())))
@@ -145,13 +147,15 @@ fn hold_against_f64(stems: &[&str], lengths_mm: &[f64]) {
             // CDFs are compared in energy: 1e-5 of all reflected light, below what 8 bits of a picture show.
             check(2, answer.radial_cdf, profile.radial_cdf(radius), 1.0, 1e-5, "radial_cdf");
             check(3, answer.transmittance, profile.transmittance(radius), 1.0, 1e-5, "transmittance");
+            check(5, answer.slab_transmittance, slab.transmittance(radius), 1.0, 1e-5, "slab_transmittance");
+            check(5, answer.slab_reflectance, slab.reflectance(radius), 1.0, 1e-5, "slab_reflectance");
             // So is the sampler: the energy within the radius that it returns must be u.
             let inside = profile.radial_cdf(f64::from(answer.sample_radius));
             check(4, inside as f32, f64::from(query.u), 1.0, 1e-5, "cdf(sample_radius)");
         }
         let worst = worst.map(|error| format!("{error:.1e}")).join(", ");
         println!(
-            "l = {mean_free_path_mm} mm: worst errors of area_pdf, radial_pdf, radial_cdf, transmittance, sample: {worst}"
+            "l = {mean_free_path_mm} mm: worst errors of area_pdf, radial_pdf, radial_cdf, transmittance, sample, slab: {worst}"
         );
     }
 }

@@ -12,6 +12,8 @@ struct TwinAnswer {
     radial_pdf: f32,
     radial_cdf: f32,
     transmittance: f32,
+    slab_transmittance: f32,
+    slab_reflectance: f32,
     sample_radius: f32,
 }
 
@@ -26,12 +28,15 @@ fn twins(@builtin(global_invocation_id) id: vec3u) {
     let query = queries[id.x];
     let profiles = material_profiles(material_table[query.material], vec3f(query.surface_albedo));
     let profile = channel_profile(profiles, query.channel);
-    let through = channel_transmittance(profiles, vec3f(query.surface_albedo), query.radius_mm);
+    let length = material_table[query.material].surface.mean_free_path_mm;
+    let albedo = vec3f(query.surface_albedo);
     answers[id.x] = TwinAnswer(
         profile_area_pdf(profile, query.radius_mm),
         profile_radial_pdf(profile, query.radius_mm),
         profile_radial_cdf(profile, query.radius_mm),
-        through[query.channel],
+        profile_transmittance(profiles, albedo, query.radius_mm)[query.channel],
+        slab_transmittance(albedo, length, query.radius_mm)[query.channel],
+        slab_reflectance(albedo, length, query.radius_mm)[query.channel],
         profile_sample_radius(profile, query.u),
     );
 }

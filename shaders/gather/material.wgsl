@@ -11,6 +11,10 @@ struct MaterialSurface {
     surface_albedo: vec3f,
     /// Specular reflectance at normal incidence F₀, 0 to 1.
     reflectance_at_normal: f32,
+    /// Mean free path by which the light of a slab falls, mm; 0 where the profile says what comes through.
+    slab_mean_free_path_mm: vec3f,
+    /// Thickness of a material that is a sheet, mm; 0 for one that fills what it bounds.
+    thin_thickness_mm: f32,
     /// Roughness of the specular lobe (square root of the GGX α), 0 to 1.
     roughness: f32,
     /// Factor on the light that comes through from the far side, 0 for none.

@@ -12,8 +12,11 @@ struct Light {
     shadow_filter_radius: f32,
     /// World-space distance by which a point is lifted off the surface before it is compared, against self-shadowing.
     shadow_normal_offset: f32,
-    /// World-space radius over which the thickness is averaged.
+    /// World-space radius of the disc over which what comes through is averaged.
     thickness_filter_radius: f32,
+    /// World-space distance by which a point is moved into the object before its thickness is measured, so that a rim
+    /// is not taken for the lit face.
+    thickness_normal_offset: f32,
     /// Millimetres that a world unit has.
     millimetres_per_world_unit: f32,
 }

@@ -24,13 +24,3 @@ fn shadow_visibility(
     }
     return lit / f32(SHADOW_TAPS);
 }
-
-/// Depth of the surface nearest to the light at `position` in the shadow map; 1 outside the map and where it saw none.
-fn nearest_to_light(maps: texture_depth_2d_array, position: vec2f, layer: u32) -> f32 {
-    let size = vec2i(textureDimensions(maps));
-    let texel = vec2i(floor(position * vec2f(size)));
-    if any(texel < vec2i(0)) || any(texel >= size) {
-        return 1.0;
-    }
-    return textureLoad(maps, texel, i32(layer), 0);
-}

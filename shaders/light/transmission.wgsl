@@ -1,18 +1,64 @@
-// uses: gather/{channel, profile}, lib/vogel_disc, light/{directional_light, shadow}; needs: shadow_maps
+// uses: gather/{channel, material, profile}, lib/{slab, vogel_disc}, light/{diffuse, directional_light, lit_surface, shadow}; needs: shadow_comparison, shadow_maps
 
-/// Fraction of the diffusely reflected light that would leave beyond `thickness_mm`, per channel, times the surface
-/// albedo: ∫ R(√(r² + t²)) 2πr dr = A (1 − cdf(t)), the light that a slab of thickness t lets through.
-fn channel_transmittance(profiles: ChannelProfiles, surface_albedo: vec3f, thickness_mm: f32) -> vec3f {
+// Light that enters on the far side of an object and leaves on this one. How far it travels in between, the light's
+// shadow map says; what is left of it, the material's law.
+
+/// Taps over which the transmittance is averaged.
+const THICKNESS_TAPS: u32 = 8u;
+
+/// Share of a profile's light beyond a radius of `thickness_mm`, times the surface albedo: ∫ R(√(r² + t²)) 2πr dr =
+/// A (1 − cdf(t)). Jimenez et al. 2010, "Real-Time Realistic Skin Translucency", take it for what a slab lets through.
+fn profile_transmittance(profiles: ChannelProfiles, surface_albedo: vec3f, thickness_mm: f32) -> vec3f {
     return surface_albedo * (vec3f(1.0) - channel_radial_cdf(profiles, thickness_mm));
 }
 
-/// Light that comes through from the far side: E(−n·l) A (1 − cdf(thickness)), the thickness measured in the shadow map
-/// along the inverted normal (Jimenez et al. 2010, "Real-Time Realistic Skin Translucency").
-fn transmitted_irradiance(
+/// Fraction of the light that comes through `thickness_mm` of a material, per channel: by its law.
+fn material_transmittance(
+    surface: MaterialSurface,
+    profiles: ChannelProfiles,
+    surface_albedo: vec3f,
+    thickness_mm: f32,
+) -> vec3f {
+    if surface.slab_mean_free_path_mm.r > 0.0 {
+        return slab_transmittance(surface_albedo, surface.slab_mean_free_path_mm, thickness_mm);
+    }
+    return profile_transmittance(profiles, surface_albedo, thickness_mm);
+}
+
+/// Thickness of an object, mm: `way_mm` is the light's way through it to a point that was moved in by `moved_mm`, and
+/// may be below 0 where that came out on the lit side.
+///
+/// Where the lit face is perpendicular to the light it is that way; where it is parallel to the shaded face, the way
+/// times the cosine that both have: a slab is as thick for every angle (Green 2004, "Real-Time Approximations to
+/// Subsurface Scattering"; d'Eon and Luebke 2007, "Advanced Techniques for Realistic Real-Time Skin Rendering").
+fn thickness_between(way_mm: f32, moved_mm: f32, facing_away: f32, parallel: f32) -> f32 {
+    let along_light = max(way_mm + moved_mm * facing_away, 0.0);
+    let across_slab = max(way_mm * facing_away + moved_mm, 0.0);
+    return mix(along_light, across_slab, parallel);
+}
+
+/// Irradiance that enters the far side of a thin sheet: through, it is at the same place.
+fn sheet_irradiance(
     light: Light,
     layer: u32,
     world_position: vec3f,
     normal: vec3f,
+    reflectance_at_normal: f32,
+) -> vec3f {
+    let facing_away = max(-dot(normal, light.towards_light), 0.0);
+    let lifted = world_position - light.shadow_normal_offset * normal;
+    let coordinate = (light.shadow_from_world * vec4f(lifted, 1.0)).xyz;
+    let visibility = shadow_visibility(shadow_maps, shadow_comparison, coordinate, layer, light.shadow_filter_radius);
+    return entering_irradiance(light.irradiance * visibility, facing_away, reflectance_at_normal);
+}
+
+/// Share of the light that enters on the far side which comes through: the mean transmittance around the point.
+fn transmitted_share(
+    light: Light,
+    layer: u32,
+    world_position: vec3f,
+    normal: vec3f,
+    surface: MaterialSurface,
     profiles: ChannelProfiles,
     surface_albedo: vec3f,
 ) -> vec3f {
@@ -20,29 +66,27 @@ fn transmitted_irradiance(
     if facing_away <= 0.0 {
         return vec3f(0.0);
     }
-    let inside = world_position - light.shadow_normal_offset * normal;
-    // Moving in shortens the way to the light, which is to be given back.
-    let moved_in_mm = light.shadow_normal_offset * facing_away * light.millimetres_per_world_unit;
-    // Any axis that is not the light's own spans the disc across its direction.
-    let axis = select(vec3f(0.0, 1.0, 0.0), vec3f(1.0, 0.0, 0.0), abs(light.towards_light.y) > 0.9);
-    let across = normalize(cross(light.towards_light, axis));
-    let along = cross(light.towards_light, across);
-    // The mean over a small disc hides the steps of the shadow map's texels.
-    var thickness_mm = 0.0;
-    var seen = 0.0;
-    for (var tap = 0u; tap < SHADOW_TAPS; tap += 1u) {
-        let offset = light.thickness_filter_radius * vogel_disc(tap, SHADOW_TAPS);
-        let point = light.shadow_from_world * vec4f(inside + offset.x * across + offset.y * along, 1.0);
-        let nearest = nearest_to_light(shadow_maps, point.xy, layer);
-        if nearest < 1.0 {
-            thickness_mm += max(point.z - nearest, 0.0) * light.shadow_range_mm + moved_in_mm;
-            seen += 1.0;
+    let moved_mm = light.thickness_normal_offset * light.millimetres_per_world_unit;
+    let inside = light.shadow_from_world * vec4f(world_position - light.thickness_normal_offset * normal, 1.0);
+    // A disc in the shaded face, not across the light: there a slab has one thickness.
+    let axis = select(vec3f(0.0, 1.0, 0.0), vec3f(1.0, 0.0, 0.0), abs(normal.y) > 0.9);
+    let across = normalize(cross(normal, axis));
+    let along = cross(normal, across);
+    let radius = light.thickness_filter_radius;
+    let step_across = (light.shadow_from_world * vec4f(radius * across, 0.0)).xyz;
+    let step_along = (light.shadow_from_world * vec4f(radius * along, 0.0)).xyz;
+    var through = vec3f(0.0);
+    for (var tap = 0u; tap < THICKNESS_TAPS; tap += 1u) {
+        let offset = vogel_disc(tap, THICKNESS_TAPS);
+        let point = inside.xyz + offset.x * step_across + offset.y * step_along;
+        let lit = lit_surface(shadow_maps, point.xy, layer);
+        // Where the map saw nothing, nothing comes through: what was not measured does not glow.
+        if lit.is_seen {
+            let way_mm = (point.z - lit.depth) * light.shadow_range_mm;
+            let parallel = clamp(-dot(lit_normal(light, lit), normal), 0.0, 1.0);
+            let thickness_mm = thickness_between(way_mm, moved_mm, facing_away, parallel);
+            through += material_transmittance(surface, profiles, surface_albedo, thickness_mm);
         }
     }
-    if seen == 0.0 {
-        return vec3f(0.0); // the map saw nothing here: what was not measured does not glow
-    }
-    // Directions in which the map saw nothing let nothing through.
-    let through = channel_transmittance(profiles, surface_albedo, thickness_mm / seen) * seen / f32(SHADOW_TAPS);
-    return light.irradiance * facing_away * through;
+    return through / f32(THICKNESS_TAPS);
 }

@@ -1,4 +1,4 @@
-// uses: gather/input, kernel/constants, lib/{angle, numeric_limits, object_transform}, light/{diffuse, directional_light, normal_map, shadow, specular, transmission}, the material set
+// uses: gather/input, kernel/constants, lib/{angle, numeric_limits, object_transform, slab}, light/{diffuse, directional_light, normal_map, shadow, specular, transmission}, the material set
 
 /// Camera and lights of one frame.
 struct GBufferFrame {
@@ -102,6 +102,7 @@ fn gbuffer_fragment(interpolated: GBufferInterpolated, @builtin(front_facing) fr
     let roughness = select(object.opaque_roughness, row.surface.roughness, translucent);
     let profiles = material_profiles(row, surface_albedo);
     let transmission = frame.transmission * select(0.0, row.surface.transmission_strength, translucent);
+    let is_thin = translucent && row.surface.thin_thickness_mm > 0.0;
 
     var irradiance = entering_ambient_irradiance(frame.ambient_irradiance, reflectance);
     var unscattered = vec3f(0.0);
@@ -119,10 +120,17 @@ fn gbuffer_fragment(interpolated: GBufferInterpolated, @builtin(front_facing) fr
         irradiance += entering_irradiance(arriving, cosine, reflectance);
         unscattered +=
             arriving * specular_reflection(normal, light.towards_light, towards_camera, reflectance, roughness);
-        if transmission > 0.0 {
+        if is_thin {
+            unscattered += transmission
+                * sheet_irradiance(light, i, interpolated.world_position, smooth_normal, reflectance)
+                * slab_transmittance(surface_albedo, row.surface.slab_mean_free_path_mm, row.surface.thin_thickness_mm)
+                / PI;
+        } else if transmission > 0.0 {
+            let facing_away = max(-true_cosine, 0.0);
+            let entering = entering_irradiance(light.irradiance, facing_away, reflectance);
             let position = interpolated.world_position;
-            let through = transmitted_irradiance(light, i, position, smooth_normal, profiles, surface_albedo);
-            unscattered += transmission * through / PI;
+            let through = transmitted_share(light, i, position, smooth_normal, row.surface, profiles, surface_albedo);
+            unscattered += transmission * entering * through / PI;
         }
     }
 
@@ -131,5 +139,10 @@ fn gbuffer_fragment(interpolated: GBufferInterpolated, @builtin(front_facing) fr
     targets.irradiance = vec4f(min(irradiance, vec3f(LARGEST_HALF)), 1.0);
     targets.unscattered = vec4f(min(unscattered, vec3f(LARGEST_HALF)), 1.0);
     targets.surface = vec4f(surface_albedo, select(-1.0, f32(object.material), translucent));
+    if is_thin {
+        // A sheet sends back what a slab does, from where it entered.
+        let length = row.surface.slab_mean_free_path_mm;
+        targets.surface = vec4f(slab_reflectance(surface_albedo, length, row.surface.thin_thickness_mm), -1.0);
+    }
     return targets;
 }

@@ -47,6 +47,7 @@ pub const LIBRARY: &[Module] = modules![
     "lib/object_transform",
     "lib/shared_exponent",
     "lib/single_scattering_albedo",
+    "lib/slab",
     "lib/tone",
     "lib/vogel_disc",
 ];
@@ -128,6 +129,7 @@ pub const LIGHT: &[Module] = modules![
     "light/diffuse",
     "light/directional_light",
     "light/fresnel",
+    "light/lit_surface",
     "light/normal_map",
     "light/shadow",
     "light/specular",

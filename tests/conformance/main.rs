@@ -24,4 +24,5 @@ mod l23_sampler;
 mod l23_table_1;
 mod minimum;
 mod rational;
+mod slab;
 mod stored;

@@ -1,7 +1,7 @@
 //! Lengths that look like another unit, or another quantity.
 
 use subsurface_profile::Length;
-use subsurface_profile::single_scattering_albedo::{Entry, from_surface_albedo};
+use subsurface_profile::single_scattering_albedo::{self, Entry, from_surface_albedo};
 
 use crate::diagnostics::Diagnostic;
 use crate::draft::Draft;
@@ -12,10 +12,12 @@ const LONGEST_MM: f64 = 1000.0;
 /// Shortest plausible mean free path in mm: 1 µm, about the wavelength of light.
 const SHORTEST_MM: f64 = 1e-3;
 
-/// ℓ_d/ℓ = 1/√(3 (1 - α)): with σtr = √(3 σa σt′) and σa = (1 - α) σt′ (CB15 §5). Infinite at A = 1.
+/// ℓ_d/ℓ of the medium that has this surface albedo; infinite at 1.
 pub(crate) fn diffuse_per_mean_free_path(surface_albedo: f64) -> f64 {
-    let alpha = from_surface_albedo(Entry::Searchlight, surface_albedo);
-    1.0 / (3.0 * (1.0 - alpha)).sqrt()
+    single_scattering_albedo::diffuse_per_mean_free_path(from_surface_albedo(
+        Entry::Searchlight,
+        surface_albedo,
+    ))
 }
 
 pub(super) fn check(material: &Draft<'_>, diagnostics: &mut Vec<Diagnostic>) {
@@ -61,11 +63,11 @@ fn check_parametrization(material: &Draft<'_>, diagnostics: &mut Vec<Diagnostic>
         ));
     diagnostic = if converted.contains("inf") {
         diagnostic.help(
-            "if it is the mean free path ℓ: a medium of surface albedo 1 has no finite ℓ_d = ℓ/√(3 (1 - α))",
+            "if it is the mean free path ℓ: a medium of surface albedo 1 has no finite ℓ_d = ℓ √((2 - α)/(3 (1 - α)))",
         )
     } else {
         diagnostic.help(format!(
-            "if it is the mean free path ℓ, write ℓ_d = ℓ/√(3 (1 - α)) for this surface albedo: \
+            "if it is the mean free path ℓ, write ℓ_d = ℓ √((2 - α)/(3 (1 - α))) for this surface albedo: \
              `diffuse_mean_free_path_mm: {converted}`"
         ))
     };

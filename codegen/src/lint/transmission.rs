@@ -12,7 +12,7 @@ pub(super) fn check(material: &Draft<'_>, diagnostics: &mut Vec<Diagnostic>) {
         diagnostics.push(
             Diagnostic::warning(format!("a transmission strength of {} adds light", rounded(strength.value)))
                 .label(strength.span.clone(), format!("expected at most {STRONGEST}"))
-                .help("1 is the transmittance of the profile; to let more light through, make the mean free path longer"),
+                .help("1 is the transmittance of the material; to let more light through, make the mean free path longer"),
         );
     }
 }

@@ -4,11 +4,13 @@ use subsurface_profile::Length;
 
 use crate::diagnostics::Diagnostic;
 use crate::identifier;
+use crate::material::Transmittance;
 use crate::schema::body::Body;
+use crate::schema::choice::choice;
 use crate::schema::decoder::{Decoder, Fields, Given, Triple, head};
 use crate::schema::profile::{ProfileExpression, decode_profile};
 use crate::schema::quantity::{
-    DIFFUSE_MEAN_FREE_PATH, MEAN_FREE_PATH, REFLECTANCE, ROUGHNESS, SURFACE_ALBEDO, TRANSMISSION,
+    DIFFUSE_MEAN_FREE_PATH, MEAN_FREE_PATH, REFLECTANCE, ROUGHNESS, SURFACE_ALBEDO, THICKNESS, TRANSMISSION,
 };
 use crate::schema::set_file::SET;
 use crate::source::{FileId, Span, Spanned};
@@ -34,6 +36,8 @@ pub(crate) struct MaterialFile {
     pub(crate) reflectance_at_normal: Given<Spanned<f64>>,
     pub(crate) roughness: Given<Spanned<f64>>,
     pub(crate) transmission_strength: Given<Spanned<f64>>,
+    pub(crate) transmittance: Given<Spanned<Transmittance>>,
+    pub(crate) thin_thickness_mm: Given<Spanned<f64>>,
 }
 
 /// The length that scales the profile, as given.
@@ -46,7 +50,7 @@ pub(crate) struct LengthGiven {
     pub(crate) value: Triple,
 }
 
-const FIELDS: [&str; 9] = [
+const FIELDS: [&str; 11] = [
     "version",
     "name",
     "base",
@@ -56,10 +60,13 @@ const FIELDS: [&str; 9] = [
     "surface_albedo",
     "specular",
     "transmission_strength",
+    "transmittance",
+    "thin",
 ];
 
 /// Fields that a reader may look for one level higher than they are.
-const GROUPED: [(&str, &str); 2] = [("reflectance_at_normal", "specular"), ("roughness", "specular")];
+const GROUPED: [(&str, &str); 3] =
+    [("reflectance_at_normal", "specular"), ("roughness", "specular"), ("thickness_mm", "thin")];
 
 /// Decodes the file of a material; `None` when nothing in it can be trusted.
 pub(crate) fn decode_material(
@@ -140,6 +147,11 @@ fn decode_fields(
     let transmission_strength = fields.optional("transmission_strength", |node| {
         decoder.spanned_number(node, "transmission_strength", &TRANSMISSION)
     });
+    let transmittance = fields.optional("transmittance", |node| {
+        let word = choice(decoder, node, "transmittance", &Transmittance::ALL.map(Transmittance::name))?;
+        Some(Spanned::new(Transmittance::from_name(word)?, node.span()))
+    });
+    let thin_thickness_mm = decode_thin(decoder, &fields);
     MaterialFile {
         file,
         docs: document.docs.clone(),
@@ -152,6 +164,8 @@ fn decode_fields(
         reflectance_at_normal,
         roughness,
         transmission_strength,
+        transmittance,
+        thin_thickness_mm,
     }
 }
 
@@ -199,6 +213,26 @@ fn decode_specular(decoder: &mut Decoder, fields: &Fields<'_>) -> (Given<Spanned
     let mut number =
         |name, quantity| inner.optional(name, |node| decoder.spanned_number(node, name, quantity));
     (number("reflectance_at_normal", &REFLECTANCE), number("roughness", &ROUGHNESS))
+}
+
+fn decode_thin(decoder: &mut Decoder, fields: &Fields<'_>) -> Given<Spanned<f64>> {
+    fields.optional("thin", |node| {
+        let Shape::Struct(None, entries) = node.shape() else {
+            decoder.wrong_type(node, "thin", "a named number", "write `thin: (thickness_mm: 0.25)`");
+            return None;
+        };
+        let inner = decoder.fields("`thin`", head(None, node), entries, &["thickness_mm"]);
+        let thickness =
+            inner.optional("thickness_mm", |node| decoder.spanned_number(node, "thickness_mm", &THICKNESS));
+        if thickness.is_absent() {
+            decoder.report(
+                Diagnostic::error("missing field `thickness_mm`")
+                    .label(node.span(), "`thin` needs `thickness_mm`")
+                    .help("add `thickness_mm: 0.25`, the thickness of the sheet in mm"),
+            );
+        }
+        thickness.value().cloned()
+    })
 }
 
 fn check_name(decoder: &mut Decoder, name: &Spanned<String>, is_given: bool) {

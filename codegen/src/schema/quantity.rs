@@ -48,7 +48,15 @@ pub(crate) const TRANSMISSION: Quantity = Quantity {
     unit: "",
     bounds: Bounds::NonNegative,
     kind: "number",
-    meaning: "give a factor from 0 (no light comes through); 1 is the transmittance of the profile",
+    meaning: "give a factor from 0 (no light comes through); 1 is the transmittance of the material",
+};
+
+pub(crate) const THICKNESS: Quantity = Quantity {
+    noun: "thickness",
+    unit: "mm",
+    bounds: Bounds::Positive,
+    kind: "number",
+    meaning: "give the thickness of the sheet in mm: 0.25 for a leaf, 0.1 for paper",
 };
 
 /// Why a number is refused: the message and the label.

@@ -1,6 +1,5 @@
 //! `subsurface profile coefficients`.
 
-use super::curve::diffuse_mean_free_path;
 use super::fit::{HowToFit, chosen, failure};
 use super::model;
 use super::truth::{Setting, Truth, TruthName};
@@ -12,6 +11,7 @@ use clap::Args;
 use std::fmt::Write as _;
 use std::path::PathBuf;
 use subsurface_profile::fit::fit;
+use subsurface_profile::single_scattering_albedo::diffuse_per_mean_free_path;
 use subsurface_profile::{FunctionOfAlbedo, Length, Model, ModelKind, RadialData};
 
 /// Arguments of `profile coefficients`.
@@ -86,7 +86,7 @@ fn best_values(model: &Model, table: &RadialData, truth: &Truth, how: HowToFit) 
     // The fit counts the table's mean free paths.
     let length = match model.length() {
         Length::MeanFreePath => 1.0,
-        Length::DiffuseMeanFreePath => diffuse_mean_free_path(truth.medium_at(surface_albedo)),
+        Length::DiffuseMeanFreePath => diffuse_per_mean_free_path(truth.medium_at(surface_albedo)),
     };
     let values = fitted.model.functions_at(surface_albedo).into_iter().zip(model.kind().functions());
     let value = |(value, function): (f64, FunctionOfAlbedo)| {

@@ -3,6 +3,7 @@
 use super::truth::Truth;
 use crate::failure::Failure;
 use std::f64::consts::TAU;
+use subsurface_profile::single_scattering_albedo::diffuse_per_mean_free_path;
 use subsurface_profile::{Channel, Length, Medium, Model, RadialData, RadialProfile};
 use subsurface_reference::diffusion::Reflectance;
 
@@ -24,7 +25,7 @@ pub(super) fn profile(
 ) -> Result<Box<dyn RadialProfile>, Failure> {
     let length = match model.length() {
         Length::MeanFreePath => 1.0,
-        Length::DiffuseMeanFreePath => diffuse_mean_free_path(truth.medium_at(surface_albedo)),
+        Length::DiffuseMeanFreePath => diffuse_per_mean_free_path(truth.medium_at(surface_albedo)),
     };
     let refused = |reason: String| {
         Failure::new(
@@ -34,12 +35,6 @@ pub(super) fn profile(
     };
     let medium = Medium::new(surface_albedo, length).map_err(|reason| refused(reason.to_string()))?;
     model.profile(medium, Channel::Red).map_err(|reason| refused(reason.to_string()))
-}
-
-/// 1/σtr in mean free paths: σtr² = σa/D with D = (σt + σa)/(3σt²). Christensen and Burley 2015, eq. (7).
-pub(super) fn diffuse_mean_free_path(single_scattering_albedo: f64) -> f64 {
-    let absorption = 1.0 - single_scattering_albedo;
-    ((1.0 + absorption) / (3.0 * absorption)).sqrt()
 }
 
 impl Curve {
