@@ -82,10 +82,11 @@ fn differences(accepted: &[Figures], fresh: &[Figures]) -> Vec<String> {
     lines
 }
 
-fn compared(figures: &Figures) -> [(&'static str, Option<f64>); 8] {
+fn compared(figures: &Figures) -> [(&'static str, Option<f64>); 9] {
     [
         ("VGPRs", Some(f64::from(figures.vgprs))),
         ("spilled VGPRs", Some(f64::from(figures.spilled_vgprs))),
+        ("spilled SGPRs", Some(f64::from(figures.spilled_sgprs))),
         ("waves", Some(f64::from(figures.waves))),
         ("LDS", Some(f64::from(figures.lds_bytes))),
         ("instructions", Some(f64::from(figures.instructions))),

@@ -11,8 +11,8 @@ use crate::TapCounts;
 /// compile until it treats a new one too.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Estimator {
-    /// The energy within the pixel's own footprint stays there; what lies beyond comes from a lattice of taps that
-    /// neighbouring pixels share.
+    /// The energy within the pixel's own footprint stays there; the eight pixels around it and the eight blocks around
+    /// its block are summed; what lies beyond comes from a lattice of taps that neighbouring pixels share.
     Interleaved {
         /// Taps per pixel, 1 to 64.
         taps: u32,
@@ -23,7 +23,7 @@ pub enum Estimator {
         /// Taps per pixel, 1 to 4096.
         taps: u32,
     },
-    /// Two passes of one dimension, weights from the profile's line spread (Jimenez et al. 2015, "Separable Subsurface
+    /// Two passes of one dimension, weights from the profile's edge spread (Jimenez et al. 2015, "Separable Subsurface
     /// Scattering"). Without noise, and wrong in two dimensions.
     Separable {
         /// Taps per pass, an odd number from 3 to 65.
@@ -31,7 +31,8 @@ pub enum Estimator {
         /// Whether each pixel turns its pair of axes: stars become noise.
         rotated: bool,
     },
-    /// Every pixel in the filter radius: slow, exact, what the others are measured against.
+    /// Every pixel within the radius of 99.9 % of the light, up to 120 pixels: slow, what the others are measured
+    /// against.
     Dense,
 }
 

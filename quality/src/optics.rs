@@ -142,7 +142,7 @@ impl Optics {
             }
             let edge_curve = EdgeCurve::new(|distance| beyond_line(&*baked, distance), edge_reach);
             let mean = mean_radius(&curve);
-            // From a twentieth of the smallest pixel to the last column of the largest; power laws go on beyond.
+            // From below the smallest pixel of a picture with depth to the last column of the largest; power laws go on beyond.
             let (first, last) = (0.03 * mean, 600.0 * mean);
             Ok(ChannelOptics {
                 line_spread: LogTable::new(first, last, |distance| line_spread(&*exact, distance)),
@@ -158,7 +158,7 @@ impl Optics {
         let red_or_green = if reach[0] >= reach[1] { 0 } else { 1 };
         let widest = if reach[0].max(reach[1]) >= reach[2] { red_or_green } else { 2 };
         let mean_radius = mean_radius(&channels[widest].curve);
-        // From less than a tenth of the smallest pixel to more than any filter's radius.
+        // From half of the smallest pixel to more than any filter's radius.
         let densities = DensityTable::new(5e-3 * mean_radius, 600.0 * mean_radius, |radius| {
             [0, 1, 2].map(|channel: usize| channels[channel].profile.area_pdf(radius))
         });

@@ -19,7 +19,7 @@ use cost::{cost, counts, kinds};
 /// whatever its taps, or of all.
 ///
 /// # Errors
-/// No kernel within the error, or a material without a profile at its surface albedo.
+/// No kernel within the error, or a material without a profile at a surface albedo that is tried.
 pub fn search(
     materials: &[Material<'_>],
     rejection: Rejection,

@@ -1,7 +1,7 @@
 // uses: gather/{channel, curve, gathered, input, point, rejection}, lib/angle; needs: input_pixel
 
-// Every pixel within the filter radius, [L23] eq. (22) with a sum in place of an estimate: what the other kernels are
-// scored against.
+// Every pixel within the radius of 99.9 % of the light, Liang et al. 2023 ([L23]) eq. (22) with a sum in place of an
+// estimate: what the other kernels are scored against.
 
 /// Share of the widest profile's light that the radius holds.
 const DENSE_QUANTILE: f32 = 0.999;
@@ -26,7 +26,7 @@ fn dense_radius(point: SurfacePoint) -> i32 {
     return i32(ceil(min(radius_mm / point.pixel_mm, DENSE_LARGEST_RADIUS)));
 }
 
-/// Light of all pixels within the filter radius of the pixel `centre`, whose target is of `size`.
+/// Light of all pixels within `dense_radius` of the pixel `centre`, in a target of `size` pixels.
 fn gather_dense(point: SurfacePoint, centre: vec2i, size: vec2i) -> Gathered {
     let radius = dense_radius(point);
     let near = with_near(centre_light(point, centre), point, centre, size, radius);

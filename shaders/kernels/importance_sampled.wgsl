@@ -1,6 +1,6 @@
 // uses: gather/{curve, gathered, point, tap}, kernel/constants, lib/angle
 
-// Importance-sampled gather in screen space, [L23] eq. (22):
+// Importance-sampled gather in screen space, Liang et al. 2023 ([L23]) eq. (22):
 //
 //     L = Σ wᵢ Eᵢ / Σ wᵢ,   wᵢ = R(√(rᵢ² + dᵢ²)) / p(rᵢ)
 //

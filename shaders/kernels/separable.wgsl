@@ -3,9 +3,8 @@
 // Two passes along one axis each: Jimenez et al. 2015, "Separable Subsurface Scattering".
 //
 // A tap is a strip beside the centre. Its weight is the light that a line source sends into the strip: the difference
-// of the profile's edge spread F at the strip's ends, not a sample of the line spread at its middle. The strips hold
-// much the same of the widest channel's light, so that no line of pixels stands for much more than another; the last
-// ones are open.
+// of the profile's edge spread F at the strip's ends, not a sample of the line spread at its middle. Strips are so wide
+// that no line of pixels stands for much more of the widest channel's light than the centre; the last ones are open.
 
 /// Light gathered along `axis` at the point; `is_second` tells the second pass, which reads `blurred`, what the first
 /// one left. The centre's own light counts unless it was not finite.
@@ -51,7 +50,7 @@ struct StripLight {
     irradiance: vec3f,
     /// Sum of their weights: 1 where both count in full.
     weight: f32,
-    /// Square of the slope from the centre to them: of their depths and of their distances by the mean squares.
+    /// Square of the slope from the centre to them: mean square of their depths over that of their distances.
     squared_slope: f32,
 }
 

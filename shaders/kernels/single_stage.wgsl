@@ -1,6 +1,7 @@
 // uses: gather/{footprint, gathered, input, pixel_point}; needs: gather_at, input_surface, irradiance_at, subsurface_view
 
-/// Diffused irradiance at `pixel`, whose texel of the irradiance is `own`; a pixel that does not scatter keeps it.
+/// Diffused irradiance at `pixel`; a pixel that does not scatter keeps its own. That is read where it is needed: held
+/// through the loops it would take registers.
 fn diffuse_single_stage(pixel: vec2i) -> vec4f {
     let surface = input_surface(pixel);
     if surface.material == NO_MATERIAL {

@@ -19,6 +19,7 @@ use clap::{Args, Parser, Subcommand, value_parser};
 use std::ffi::OsString;
 use std::path::PathBuf;
 use subsurface_codegen::{Compilation, Estimator};
+use subsurface_runtime::Path;
 
 /// Measure kernels: errors and times side by side.
 #[derive(Debug, Args)]
@@ -180,9 +181,18 @@ pub fn run_kernels(arguments: &KernelsArguments, more: Vec<Box<dyn Contender>>) 
     if arguments.uniform_albedo {
         cases.iter_mut().for_each(|case| case.buffers.surface_albedo = None);
     }
+    let route = arguments.route.chosen();
+    if route.shape.is_some() {
+        let has_choice = arguments.kernels.iter().any(|kernel| kernel.has_software_shape());
+        if route.path == Some(Path::Fragment) || !has_choice {
+            return Err(Failure::new(
+                "--shape: none of these kernels, on this path, shares its work in two ways",
+                "leave out --shape, or take --path compute and a kernel `interleaved`",
+            ));
+        }
+    }
     let contenders: Vec<Box<dyn Contender>> = ours(&arguments.kernels).chain(more).collect();
-    let options =
-        Options { rounds: arguments.repeats, route: arguments.route.chosen(), white: arguments.white };
+    let options = Options { rounds: arguments.repeats, route, white: arguments.white };
     let mut reports = Vec::new();
     for subject in &subjects {
         for case in &cases {

@@ -22,7 +22,7 @@ use crate::failure::Failure;
 use device::Device;
 
 /// The most taps that may be asked for.
-pub const LARGEST_TAPS: u32 = 4096;
+pub use subsurface_kernel::constants::LARGEST_TAP_COUNT as LARGEST_TAPS;
 
 /// The kernel on the device.
 pub(crate) fn load(device: &Device, kernel: &KernelParts) -> Result<LoadedKernel, Failure> {

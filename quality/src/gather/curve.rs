@@ -71,7 +71,7 @@ pub fn quantiles(profile: &dyn RadialProfile) -> Knots {
 }
 
 /// Distances on both sides of a line within which the share s = 1 - (1 - t)² of its light lands, t = j/64, where the
-/// share beyond a distance is `beyond` at even steps of the root of EDGE_POWER, up to `reach`, and straight between.
+/// share beyond a distance is `beyond` at even steps of the EDGE_POWER-th root of that, up to `reach`, and straight between.
 pub fn line_quantiles(beyond: &Knots, reach: f64) -> Knots {
     let mut step = 0;
     std::array::from_fn(|index| {

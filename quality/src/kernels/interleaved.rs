@@ -20,7 +20,7 @@ use agreement::depth_agreement;
 use block::Block;
 use block_ring::BlockRing;
 use far::{Lattice, far_taps};
-use near::NearField;
+use near::PixelShares;
 use ring::ring_light;
 use window::{window_of_taps, window_variance};
 
@@ -28,7 +28,7 @@ use window::{window_of_taps, window_variance};
 #[derive(Debug)]
 pub(crate) struct Interleaved<'a> {
     point: Point<'a>,
-    near: NearField,
+    near: PixelShares,
     block_ring: BlockRing,
     /// Shares of the window, on the farther side first.
     window: [f64; 3],
@@ -42,7 +42,7 @@ impl<'a> Interleaved<'a> {
         let taps = point.footprint_taps(far_taps(taps));
         let lattice = (taps > 0).then(|| Lattice::new(&point, taps, window_variance(window)));
         let block_ring = BlockRing::new(&point);
-        Self { near: NearField::new(&point), block_ring, point, window, lattice }
+        Self { near: PixelShares::new(&point), block_ring, point, window, lattice }
     }
 
     /// The pixels of a patch, with the twin that `on` gives for the first and last column of a block.
@@ -91,7 +91,7 @@ impl<'a> Interleaved<'a> {
         for (y, row) in (-1..).zip(rows) {
             for (x, column) in (-1..).zip(columns) {
                 let Some(block) = block_at([home[0] + x, home[1] + y]) else { continue };
-                let share = row * column * self.agreement(block.depth - depth);
+                let share = row * column * self.agreement(&block, depth);
                 gathered.add_share(&block.far, share);
             }
         }
@@ -106,8 +106,8 @@ impl<'a> Interleaved<'a> {
         if place.rem_euclid(BLOCK_SIDE) == 0 { [nearer, own, farther] } else { [farther, own, nearer] }
     }
 
-    /// Share of a far field that counts `apart` pixels of depth away.
-    fn agreement(&self, apart: f64) -> f64 {
-        depth_agreement(self.point.depth_pixels(apart) * self.block_ring.depth_factor)
+    /// Share of a block's far field that counts at a depth in pixels.
+    fn agreement(&self, block: &Block, depth: f64) -> f64 {
+        depth_agreement(self.point.depth_pixels(block.depth - depth) * block.depth_factor)
     }
 }

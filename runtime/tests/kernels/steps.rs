@@ -61,14 +61,14 @@ fn a_step_of_separable_is_at_most_half_as_large_again_as_the_profiles() {
     let mut found = Vec::new();
     for (number, material) in (0..).zip(&materials) {
         // White is what a scene without a texture of surface albedos has.
-        for surface_albedo in [material.surface_albedo, [1.0; 3]] {
+        for (surface_albedo, most) in [(material.surface_albedo, 1.25), ([1.0; 3], 1.5)] {
             for pixel_mm in PIXELS_MM {
                 let steps = largest_steps(&mut diffuser, number, material, surface_albedo, pixel_mm);
                 for (channel, (step, right)) in Channel::ALL.into_iter().zip(steps) {
                     let ratio = step / right;
                     let case = format!("{}, {surface_albedo:?}, {pixel_mm} mm, {channel:?}", material.name);
                     println!("{case}: {step:.4} where {right:.4} is right, {ratio:.2}");
-                    found.push((case, step, right));
+                    found.push((case, step, most * right, right));
                 }
             }
         }
@@ -77,7 +77,7 @@ fn a_step_of_separable_is_at_most_half_as_large_again_as_the_profiles() {
     // of the rest, half of it on each side, and stands in two lines: where a pixel is small, that is more. The border of the
     // frame, which takes what lies beyond from wide profiles, makes it more by up to a fifth.
     let half_a_strip = 1.2 * 0.25 * (1.0 - 0.875_f64.powf(1.5));
-    for (case, step, right) in found {
-        assert!(step < f64::max(1.5 * right, half_a_strip), "{case}: {step:.4} where {right:.4} is right");
+    for (case, step, most, right) in found {
+        assert!(step < f64::max(most, half_a_strip), "{case}: {step:.4} where {right:.4} is right");
     }
 }

@@ -41,7 +41,7 @@ fn with_block_ring(
     block: vec2i,
 ) -> Gathered {
     let ring = block_ring(point);
-    // Zero where the filter ends.
+    // Zero at twice the depth at which a far field still serves.
     let per_step = 0.5 / (BLOCK_DEPTH_PIXELS * exp2(f32(depth_doublings(point))));
     var gathered = sampled;
     for (var neighbour = 0; neighbour < 8; neighbour += 1) {

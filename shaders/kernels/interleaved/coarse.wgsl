@@ -12,7 +12,7 @@
 
 /// Rows of blocks: below them lie the squares of 4×4 pixels.
 fn block_rows() -> i32 {
-    return (subsurface_view.viewport_extent.y + 1) / 2;
+    return (subsurface_view.viewport_extent.y + BLOCK_SIDE - 1) / BLOCK_SIDE;
 }
 
 /// Texel of the square of 4×4 pixels at `place`.
@@ -68,7 +68,7 @@ fn surface_of_block(a: InputSurface, b: InputSurface, c: InputSurface, d: InputS
 
 /// The surface of a block; none outside of the target.
 fn block_surface(coarse: texture_2d<u32>, block: vec2i) -> InputSurface {
-    if !is_inside(2 * block) {
+    if !is_inside(BLOCK_SIDE * block) {
         return InputSurface(0.0, NO_MATERIAL);
     }
     return unpack_surface(textureLoad(coarse, block, 0).y);

@@ -10,7 +10,7 @@ struct FarField {
     depth_factor: f32,
 }
 
-/// How often BLOCK_DEPTH_PIXELS doubles until it is a third of the filter radius, which is about two mean radii: a
+/// How often BLOCK_DEPTH_PIXELS doubles and stays within a third of the filter radius, which is about two mean radii: a
 /// surface as near as that sees the same far field.
 fn depth_doublings(point: SurfacePoint) -> u32 {
     let reach = min(point.filter_radius_pixels, LARGEST_FILTER_RADIUS) / (3.0 * BLOCK_DEPTH_PIXELS);

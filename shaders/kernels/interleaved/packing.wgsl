@@ -19,7 +19,9 @@ fn pack_input(position: vec2i) -> PackedInput {
         textureStore(diffused_target, texture_position(position), texel);
     }
     let material = select(NO_MATERIAL, surface.material, is_finite_rgb(texel.rgb));
-    return PackedInput(surface, InputPixel(finite_irradiance(texel.rgb), surface.distance_mm, material));
+    // The limit of packed pixels: a square is the mean of what these hold.
+    let light = min(finite_irradiance(texel.rgb), vec3f(LARGEST_PACKED_IRRADIANCE));
+    return PackedInput(surface, InputPixel(light, surface.distance_mm, material));
 }
 
 /// Packs a block and its pixels: its surface, and the light of all.

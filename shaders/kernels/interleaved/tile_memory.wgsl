@@ -20,7 +20,7 @@ var<workgroup> tile_material: array<i32, PIXELS_WIDE * PIXELS_WIDE>;
 /// Below NO_MATERIAL.
 const UNLIT: i32 = -2;
 
-/// A far field in workgroup memory, in the order that leaves no gaps.
+/// A far field in workgroup memory, in the order that leaves a gap at the end alone.
 struct TileField {
     irradiance: vec3f,
     distance_mm: f32,

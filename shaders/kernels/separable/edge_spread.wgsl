@@ -24,7 +24,7 @@ fn edge_spread_of(surface: MaterialSurface, profiles: ChannelProfiles) -> EdgeSp
     );
 }
 
-/// Fraction of the light beyond a line `offset_mm` from an edge, per channel, which is 1 − F.
+/// Fraction of the light beyond a line `offset_mm` from where it enters, per channel, which is 1 − F.
 fn beyond_line(spread: EdgeSpread, offset_mm: f32) -> vec3f {
     let places = sqrt(sqrt(offset_mm)) * spread.steps;
     return vec3f(
@@ -36,7 +36,7 @@ fn beyond_line(spread: EdgeSpread, offset_mm: f32) -> vec3f {
 
 /// The same for one channel, at a place of its curve in steps.
 fn curve_beyond(row: i32, upper: f32, place: f32) -> f32 {
-    // What little is left where the curve ends is no light: a share of it would be whole.
+    // A weight is a share of what is left beyond: where the curve ends, nothing is.
     if place >= f32(CURVE_STEPS) {
         return 0.0;
     }

@@ -22,9 +22,9 @@ fn line_reach_pixels(surface: MaterialSurface, point: SurfacePoint, inside: f32)
     return min(reach_mm / point.pixel_mm, LARGEST_TAP_DISTANCE);
 }
 
-/// Strip `strip` of `strips`, from 1 on, where the last one ended. Of what lands beside the centre in the widest
-/// channel, `beyond_centre`, the part (1 − k/n)^1.5 lies beyond strip k of n: strips hold much the same, those of the
-/// tail a little less. But each has one pixel at least, and ends between pixels.
+/// Strip number `strip` of `strips`, from 1 on; it begins at `start`. Of what lands beside the centre in the widest
+/// channel, `beyond_centre`, the part (1 − k/n)^1.5 lies beyond strip k of n. But each strip has one pixel at least,
+/// and all but the last end between pixels.
 fn next_strip(
     surface: MaterialSurface,
     point: SurfacePoint,
@@ -45,6 +45,6 @@ fn next_strip(
     if width < 2.0 {
         places = vec2f(0.5 * width);
     }
-    // Half a pixel goes outwards on both sides, so that the two lie evenly in the strip.
+    // Ties round away from the middle on both sides, so that the two lie evenly in the strip.
     return Strip(start, end, ceil(start + places.x - 0.5), floor(start + places.y + 0.5));
 }

@@ -18,6 +18,8 @@ pub(crate) struct Block {
     pub(crate) far: Gathered,
     /// Distance at which it counts, pixels.
     pub(crate) depth: f64,
+    /// What the depth from it to a pixel is multiplied by.
+    pub(crate) depth_factor: f64,
 }
 
 /// The pixels of a block that are of its nearest surface, as one.
@@ -66,6 +68,7 @@ impl Block {
         far.add_share(&sampled, point.blend());
         far.add_share(&ring.gather(point, scene, patch, block, surface.depth), point.blend());
         let square = Square::whole(point, scene, first, BLOCK_SIDE);
-        Some(Self { far, depth: square.map_or(surface.depth, |square| square.depth) })
+        let depth = square.map_or(surface.depth, |square| square.depth);
+        Some(Self { far, depth, depth_factor: ring.depth_factor })
     }
 }

@@ -9,7 +9,7 @@ use crate::gather::point::Point;
 
 /// Shares of the light on a flat surface.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct NearField {
+pub(crate) struct PixelShares {
     /// Of the pixel itself.
     pub(crate) centre: Rgb,
     /// Of each pixel beside it.
@@ -18,7 +18,7 @@ pub(crate) struct NearField {
     pub(crate) across: Rgb,
 }
 
-impl NearField {
+impl PixelShares {
     pub(crate) fn new(point: &Point<'_>) -> Self {
         let centre = point.radial_cdf(NEAR_RADIUS_PIXELS * point.pixel);
         let inside = point.radial_cdf(RING_RADIUS_PIXELS * point.pixel);

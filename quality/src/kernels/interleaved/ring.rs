@@ -5,14 +5,14 @@ use crate::gather::point::Point;
 use crate::pictures::scene::Scene;
 
 use super::agreement::depth_agreement;
-use super::near::NearField;
+use super::near::PixelShares;
 
 /// The neighbours beside a pixel, and across its corners.
 pub(crate) const BESIDE: [[i32; 2]; 4] = [[-1, 0], [1, 0], [0, -1], [0, 1]];
 pub(crate) const ACROSS: [[i32; 2]; 4] = [[-1, -1], [1, -1], [-1, 1], [1, 1]];
 
 /// Light of the ring around a pixel of the scene.
-pub(crate) fn ring_light(near: &NearField, point: &Point<'_>, scene: Scene, [x, y]: [i32; 2]) -> Gathered {
+pub(crate) fn ring_light(near: &PixelShares, point: &Point<'_>, scene: Scene, [x, y]: [i32; 2]) -> Gathered {
     let mut gathered = Gathered::default();
     for (share, squared_radius, ring) in [(near.beside, 1.0, BESIDE), (near.across, 2.0, ACROSS)] {
         for [right, down] in ring {

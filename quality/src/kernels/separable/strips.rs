@@ -13,7 +13,7 @@ pub(crate) struct Strip {
     pub(crate) lines: [f64; 2],
 }
 
-/// Strips of equal shares of the widest channel, of which `beyond_centre` lands beside the centre, from the centre on.
+/// Strips by their shares of the widest channel, of which `beyond_centre` lands beside the centre, from the centre on.
 pub(crate) fn beside_centre(
     point: &Point<'_>,
     beyond_centre: f64,
