@@ -98,6 +98,14 @@ impl Curves {
         row_number(TEXELS * self.rows.len())
     }
 
+    /// Adds the rows of a function of two numbers, one for each knot of the first; returns the number of the first row.
+    pub(crate) fn append_rows(&mut self, knots: &[Knots]) -> u32 {
+        let first = row_number(self.rows.len());
+        let next = |node: usize| &knots[(node + 1).min(knots.len() - 1)];
+        self.rows.extend(knots.iter().enumerate().map(|(node, own)| row(own, next(node))));
+        first
+    }
+
     /// Adds texels behind all rows; the last row is filled up with zeros.
     pub(crate) fn append(&mut self, texels: &[[f32; 4]]) {
         self.rows.extend(texels.chunks(TEXELS).map(|texels| {

@@ -1,6 +1,6 @@
 //! A material on its way from its file: names are resolved, and nothing is converted yet.
 
-use crate::material::{ResolvedProfile, Transmittance};
+use crate::material::{Coupling, DiffuseLobe, ResolvedProfile, Transmittance};
 use crate::schema::{LengthGiven, Triple};
 use crate::source::{Span, Spanned};
 
@@ -15,6 +15,8 @@ pub(crate) struct Draft<'a> {
     pub(crate) surface_albedo: &'a Triple,
     pub(crate) reflectance_at_normal: Option<&'a Spanned<f64>>,
     pub(crate) roughness: Option<&'a Spanned<f64>>,
+    pub(crate) coupling: Option<Coupling>,
+    pub(crate) diffuse: DiffuseLobe,
     pub(crate) transmission_strength: Option<&'a Spanned<f64>>,
     pub(crate) transmittance: Option<&'a Spanned<Transmittance>>,
     pub(crate) thin_thickness_mm: Option<&'a Spanned<f64>>,

@@ -13,6 +13,7 @@ use crate::material::MaterialSet;
 use crate::material_row::{emit_row, row};
 use crate::mixture_text::{emit_mixtures, emit_shape};
 use crate::model_row::{ModelsInUse, Shared, constant};
+use crate::specular_albedo::{self, ROUGHNESSES};
 use crate::value::Value;
 use subsurface_kernel::Estimator;
 use subsurface_kernel::OutputFormat;
@@ -70,6 +71,7 @@ pub(crate) fn emit(set: &MaterialSet, choices: &Choices) -> Result<Emitted, NoPr
     }
     shared.emit(&mut glue.text);
     curves.append(&shared.terms.texels);
+    emit_specular_albedo(&mut glue, &mut curves);
     Ok(Emitted { glue, rows, knots: shared.knots.values, curves, models: models.all })
 }
 
@@ -130,6 +132,26 @@ fn emit_choices(glue: &mut Glue, choices: &Choices) {
     text.push_str(output_format.wgsl());
     glue.output_format = Some(start..text.len());
     text.push_str(", write>;\n\n");
+}
+
+/// Adds the rows of the specular albedo, and the constants that say where they are.
+fn emit_specular_albedo(glue: &mut Glue, curves: &mut Curves) {
+    let [at_normal, at_grazing] = specular_albedo::by_cosine();
+    let first = curves.append_rows(&at_normal);
+    curves.append_rows(&at_grazing);
+    let means = curves.append_rows(&specular_albedo::means());
+    let text = &mut glue.text;
+    for (docs, name, value) in [
+        (
+            "First row of the specular albedo by roughness: what F₀ is multiplied by. As many rows on is what is added.",
+            "SPECULAR_ALBEDO_ROW",
+            first,
+        ),
+        ("Row of their means over the hemisphere, by roughness.", "SPECULAR_MEAN_ROW", means),
+        ("Roughnesses with a row of the specular albedo.", "SPECULAR_ROUGHNESSES", ROUGHNESSES as u32),
+    ] {
+        let _ = writeln!(text, "/// {docs}\nconst {name}: i32 = {value};\n");
+    }
 }
 
 /// The texture of `Curves`.

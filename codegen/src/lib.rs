@@ -48,6 +48,7 @@ mod report;
 mod resolve;
 mod schema;
 pub mod source;
+mod specular_albedo;
 mod suggestion;
 mod syntax;
 mod table;

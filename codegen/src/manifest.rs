@@ -44,7 +44,9 @@ pub(crate) fn manifest(of: &ManifestOf<'_>, module: &Module, reflection: &Reflec
                 "specular": {
                     "reflectance_at_normal": material.reflectance_at_normal,
                     "roughness": material.roughness,
+                    "coupling": material.coupling.name(),
                 },
+                "diffuse": material.diffuse.name(),
                 "transmission_strength": material.transmission_strength,
                 "transmittance": material.transmittance.name(),
                 "thin_thickness_mm": material.thin_thickness_mm,

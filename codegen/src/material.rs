@@ -2,6 +2,10 @@
 
 use std::collections::BTreeMap;
 
+use subsurface_kernel::constants::{
+    COUPLING_ENTRY, COUPLING_FULL, COUPLING_NONE, DIFFUSE_EVERYWHERE, DIFFUSE_LAMBERT, DIFFUSE_SEARCHLIGHT,
+};
+use subsurface_profile::single_scattering_albedo::Entry;
 use subsurface_profile::{Length, Model};
 
 use crate::lint::diffuse_per_mean_free_path;
@@ -30,6 +34,10 @@ pub struct Material {
     pub reflectance_at_normal: f64,
     /// Perceptual roughness of the specular lobe, in [0, 1].
     pub roughness: f64,
+    /// How the diffuse light knows of the specular lobe.
+    pub coupling: Coupling,
+    /// How diffuse light depends on the angles at which it enters and leaves.
+    pub diffuse: DiffuseLobe,
     /// Factor on the light that comes through thin parts, ≥ 0; 1 is what `transmittance` says.
     pub transmission_strength: f64,
     /// How much light comes through thin parts.
@@ -54,6 +62,80 @@ impl Material {
                 length[channel]
                     / diffuse_per_mean_free_path(self.surface_albedo[channel].min(LARGEST_SURFACE_ALBEDO))
             }),
+        }
+    }
+}
+
+/// How diffuse light knows of the specular lobe above it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Coupling {
+    /// Not at all.
+    None,
+    /// What a mirror of the same reflectance sends back does not enter: (1 - F(μ)), Real-Time Rendering 4, eq. 9.62.
+    Entry,
+    /// What the lobe itself sends back does not enter, and as much is lost where light leaves: (1 - E(μ_l))(1 - E(μ_v))
+    /// over (1 - Ē), Real-Time Rendering 4, eq. 9.65. Conserves energy at every roughness, and is reciprocal.
+    #[default]
+    Full,
+}
+
+impl Coupling {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::None, Self::Entry, Self::Full];
+
+    /// The word in RON.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::None => "None",
+            Self::Entry => "Entry",
+            Self::Full => "Full",
+        }
+    }
+
+    /// The number in the parameter table.
+    pub(crate) const fn number(self) -> u32 {
+        match self {
+            Self::None => COUPLING_NONE,
+            Self::Entry => COUPLING_ENTRY,
+            Self::Full => COUPLING_FULL,
+        }
+    }
+}
+
+/// How diffuse light depends on the angles at which it enters and leaves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum DiffuseLobe {
+    /// Not at all.
+    Lambert,
+    /// As of Chandrasekhar's half-space: [`HalfSpace`](subsurface_profile::HalfSpace). The profile is for this entry.
+    Chandrasekhar(Entry),
+}
+
+impl DiffuseLobe {
+    /// The words in RON.
+    pub(crate) const WORDS: [&'static str; 2] = ["Lambert", "Chandrasekhar"];
+
+    /// The word in RON.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Lambert => Self::WORDS[0],
+            Self::Chandrasekhar(_) => Self::WORDS[1],
+        }
+    }
+
+    /// What a material with this model has if it does not say.
+    pub(crate) fn of_model(model: &Model) -> Self {
+        model.entry().map_or(Self::Lambert, Self::Chandrasekhar)
+    }
+
+    /// The number in the parameter table.
+    pub(crate) const fn number(self) -> u32 {
+        match self {
+            Self::Lambert => DIFFUSE_LAMBERT,
+            Self::Chandrasekhar(Entry::Searchlight) => DIFFUSE_SEARCHLIGHT,
+            Self::Chandrasekhar(Entry::Diffuse) => DIFFUSE_EVERYWHERE,
         }
     }
 }

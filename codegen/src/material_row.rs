@@ -42,6 +42,8 @@ pub(crate) fn row(
         ("slab_mean_free_path_mm", Value::vector(slab_length)),
         ("thin_thickness_mm", Value::scalar(material.thin_thickness_mm.unwrap_or_default())),
         ("roughness", Value::scalar(material.roughness)),
+        ("coupling", Value::U32(material.coupling.number())),
+        ("diffuse", Value::U32(material.diffuse.number())),
         ("transmission_strength", Value::scalar(material.transmission_strength)),
         ("first_curve", Value::U32(place.first_curve)),
         ("curve_count", Value::U32(place.curve_count)),

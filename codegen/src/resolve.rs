@@ -11,10 +11,11 @@ use crate::diagnostics::Diagnostic;
 use crate::draft::Draft;
 use crate::identifier::{self, camel_case, screaming_case};
 use crate::lint;
-use crate::material::{Material, ResolvedProfile, Transmittance};
+use crate::material::{Coupling, DiffuseLobe, Material, ResolvedProfile, Transmittance};
 use crate::quality_request::QualityRequest;
 use crate::schema::{
-    Given, LengthGiven, MaterialFile, ProfileExpression, ProfileFile, SET, SetFile, Triple, rounded,
+    DiffuseGiven, Given, LengthGiven, MaterialFile, ProfileExpression, ProfileFile, SET, SetFile, Triple,
+    no_entry, rounded,
 };
 use crate::source::{FileId, Span, Spanned};
 use crate::suggestion::{closest, list, shortened};
@@ -75,6 +76,8 @@ struct Inherited<'a> {
     surface_albedo: &'a Given<Triple>,
     reflectance_at_normal: &'a Given<Spanned<f64>>,
     roughness: &'a Given<Spanned<f64>>,
+    coupling: &'a Given<Coupling>,
+    diffuse: &'a Given<Spanned<DiffuseGiven>>,
     transmission_strength: &'a Given<Spanned<f64>>,
     transmittance: &'a Given<Spanned<Transmittance>>,
     thin_thickness_mm: &'a Given<Spanned<f64>>,
@@ -229,6 +232,8 @@ impl Resolution {
             surface_albedo: &material.surface_albedo,
             reflectance_at_normal: &material.reflectance_at_normal,
             roughness: &material.roughness,
+            coupling: &material.coupling,
+            diffuse: &material.diffuse,
             transmission_strength: &material.transmission_strength,
             transmittance: &material.transmittance,
             thin_thickness_mm: &material.thin_thickness_mm,
@@ -253,6 +258,8 @@ impl Resolution {
                 surface_albedo: first(inherited.surface_albedo, &next.surface_albedo),
                 reflectance_at_normal: first(inherited.reflectance_at_normal, &next.reflectance_at_normal),
                 roughness: first(inherited.roughness, &next.roughness),
+                coupling: first(inherited.coupling, &next.coupling),
+                diffuse: first(inherited.diffuse, &next.diffuse),
                 transmission_strength: first(inherited.transmission_strength, &next.transmission_strength),
                 transmittance: first(inherited.transmittance, &next.transmittance),
                 thin_thickness_mm: first(inherited.thin_thickness_mm, &next.thin_thickness_mm),
@@ -288,10 +295,14 @@ impl Resolution {
             inherited.transmission_strength,
             inherited.thin_thickness_mm,
         ];
-        let optional_is_bad = inherited.transmittance.is_bad() || numbers.iter().any(|field| field.is_bad());
+        let optional_is_bad = inherited.transmittance.is_bad()
+            || inherited.coupling.is_bad()
+            || inherited.diffuse.is_bad()
+            || numbers.iter().any(|field| field.is_bad());
         let usable = self.check_length(&profile, length, surface_albedo, profile_name)
             && self.check_profile(&profile, length, surface_albedo, profile_name);
         let fits = self.check_thin(inherited.transmittance.value(), inherited.thin_thickness_mm.value());
+        let diffuse = self.diffuse(&profile, inherited.diffuse.value())?;
         (usable && fits && inherited.complete && !optional_is_bad).then_some(Draft {
             name: &material.name.value,
             profile,
@@ -300,6 +311,8 @@ impl Resolution {
             surface_albedo,
             reflectance_at_normal: inherited.reflectance_at_normal.value(),
             roughness: inherited.roughness.value(),
+            coupling: inherited.coupling.value().copied(),
+            diffuse,
             transmission_strength: inherited.transmission_strength.value(),
             transmittance: inherited.transmittance.value(),
             thin_thickness_mm: inherited.thin_thickness_mm.value(),
@@ -450,6 +463,23 @@ impl Resolution {
         false
     }
 
+    /// The lobe that a material has; `None` where its profile has none of this kind.
+    fn diffuse(
+        &mut self,
+        profile: &ResolvedProfile,
+        given: Option<&Spanned<DiffuseGiven>>,
+    ) -> Option<DiffuseLobe> {
+        let Some(given) = given else { return Some(DiffuseLobe::of_model(&profile.model)) };
+        let entry = match given.value {
+            DiffuseGiven::Lambert => return Some(DiffuseLobe::Lambert),
+            DiffuseGiven::Chandrasekhar(entry) => entry.or_else(|| profile.model.entry()),
+        };
+        if entry.is_none() {
+            self.diagnostics.push(no_entry(given));
+        }
+        entry.map(DiffuseLobe::Chandrasekhar)
+    }
+
     /// Whether the law of transmittance is one that a sheet can have.
     fn check_thin(&mut self, law: Option<&Spanned<Transmittance>>, thin: Option<&Spanned<f64>>) -> bool {
         let (Some(law), Some(thin)) = (law.filter(|law| law.value == Transmittance::Profile), thin) else {
@@ -478,6 +508,8 @@ fn finish(file: &MaterialFile, draft: Draft<'_>) -> Material {
         surface_albedo: draft.surface_albedo.values,
         reflectance_at_normal: number(draft.reflectance_at_normal, DEFAULT_REFLECTANCE_AT_NORMAL),
         roughness: number(draft.roughness, DEFAULT_ROUGHNESS),
+        coupling: draft.coupling.unwrap_or_default(),
+        diffuse: draft.diffuse,
         transmission_strength: number(draft.transmission_strength, DEFAULT_TRANSMISSION_STRENGTH),
         transmittance: draft
             .transmittance

@@ -5,7 +5,7 @@ use subsurface_codegen::{Loaded, load_memory, profile_file_text};
 use subsurface_profile::ModelKind;
 
 /// Pieces that material files are made of, and some that they are not.
-const PIECES: [&str; 67] = [
+const PIECES: [&str; 73] = [
     "Material",
     "MaterialSet",
     "kernel",
@@ -34,6 +34,12 @@ const PIECES: [&str; 67] = [
     "roughness",
     "transmission_strength",
     "transmittance",
+    "diffuse",
+    "coupling",
+    "Chandrasekhar",
+    "Lambert",
+    "entry",
+    "Full",
     "thin",
     "thickness_mm",
     "version",

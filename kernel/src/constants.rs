@@ -45,6 +45,30 @@ macro_rules! constants {
 }
 
 constants! {
+    /// Smallest roughness of a specular lobe: narrower ones fall between pixels.
+    LEAST_ROUGHNESS: F32(f64) = 0.02;
+
+    /// Smallest cosine between a normal and the viewer: interpolated normals may face away by a hair.
+    LEAST_VIEW_COSINE: F32(f64) = 1e-3;
+
+    /// `coupling` of a surface whose diffuse light does not know of its specular lobe.
+    COUPLING_NONE: U32(u32) = 0;
+
+    /// `coupling` of a surface that lets in what a mirror of its reflectance does not send back.
+    COUPLING_ENTRY: U32(u32) = 1;
+
+    /// `coupling` of a surface that lets in, and out again, what its lobe does not send back.
+    COUPLING_FULL: U32(u32) = 2;
+
+    /// `diffuse` of a surface that takes light and gives it as Lambert's does.
+    DIFFUSE_LAMBERT: U32(u32) = 0;
+
+    /// `diffuse` of a half-space whose profile is for perpendicular entry.
+    DIFFUSE_SEARCHLIGHT: U32(u32) = 1;
+
+    /// `diffuse` of a half-space whose profile is for diffuse entry.
+    DIFFUSE_EVERYWHERE: U32(u32) = 2;
+
     /// Share of the light that counts as all of it where the reach of a profile is asked for.
     FILTER_QUANTILE: F32(f64) = 0.997;
 

@@ -4,6 +4,7 @@
 
 use crate::description::{Coefficient, Description, Function, Notation, ProfileModel, Published, Variable};
 use crate::radial_profile::{legal_radius, legal_u};
+use crate::single_scattering_albedo::Entry;
 use crate::{Channel, Length, Medium, ModelError, RadialProfile, Requirement};
 use std::f64::consts::PI;
 use std::slice::from_mut;
@@ -137,19 +138,22 @@ impl ProfileModel for BurleyModel {
             "Searchlight",
             "Christensen and Burley 2015, eq. (5), perpendicular entry",
             || Self::SEARCHLIGHT,
-        ),
+        )
+        .entering(Entry::Searchlight),
         Published::new(
             "burley_diffuse",
             "Diffuse",
             "Christensen and Burley 2015, eq. (6), diffuse entry",
             || Self::DIFFUSE,
-        ),
+        )
+        .entering(Entry::Diffuse),
         Published::new(
             "burley_dmfp",
             "DiffuseMeanFreePath",
             "Christensen and Burley 2015, eq. (8), perpendicular entry",
             || Self::DIFFUSE_MEAN_FREE_PATH,
-        ),
+        )
+        .entering(Entry::Searchlight),
     ];
 
     const FUNCTIONS: &'static [Function<Self>] =

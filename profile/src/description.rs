@@ -3,6 +3,7 @@
 //! A model implements [`ProfileModel`] in its own file, and stands in the list of `model.rs`. Nothing else in this
 //! crate, in the compiler or on the command line asks for a model by its name.
 
+use crate::single_scattering_albedo::Entry;
 use crate::{Channel, Length, Medium, Model, ModelError, Quantity, RadialData, RadialProfile};
 
 /// What is the same for every member of a model.
@@ -239,6 +240,8 @@ pub struct Published<M> {
     pub model: fn() -> M,
     /// Surface albedos of the stored truth that the set was fitted to; empty where that is not known.
     pub fitted_surface_albedos: &'static [f64],
+    /// How light enters the medium, index-matched, that the set is a profile of; `None` where that is another medium.
+    pub entry: Option<Entry>,
 }
 
 impl<M> Published<M> {
@@ -248,7 +251,11 @@ impl<M> Published<M> {
         source: &'static str,
         model: fn() -> M,
     ) -> Self {
-        Published { stem, word, source, model, fitted_surface_albedos: &[] }
+        Published { stem, word, source, model, fitted_surface_albedos: &[], entry: None }
+    }
+
+    pub(crate) const fn entering(self, entry: Entry) -> Self {
+        Published { entry: Some(entry), ..self }
     }
 
     pub(crate) const fn fitted_to(self, fitted_surface_albedos: &'static [f64]) -> Self {

@@ -5,6 +5,7 @@ use crate::description::{
 };
 use crate::dipole_source::DipoleSource;
 use crate::exponential_source_sum::{Exponential, ExponentialSourceSum};
+use crate::single_scattering_albedo::Entry;
 use crate::{Channel, Length, Medium, ModelError, RadialProfile};
 
 /// An exponential plus a dipole. At mean free path 1, with ρ = √(r² + z²),
@@ -108,8 +109,10 @@ impl ProfileModel for ExponentialDipoleModel {
     ];
 
     const PUBLISHED: &'static [Published<Self>] = &[
-        Published::new("exponential_dipole_searchlight", "Searchlight", FITTED[0], || Self::SEARCHLIGHT),
-        Published::new("exponential_dipole_diffuse", "Diffuse", FITTED[1], || Self::DIFFUSE),
+        Published::new("exponential_dipole_searchlight", "Searchlight", FITTED[0], || Self::SEARCHLIGHT)
+            .entering(Entry::Searchlight),
+        Published::new("exponential_dipole_diffuse", "Diffuse", FITTED[1], || Self::DIFFUSE)
+            .entering(Entry::Diffuse),
     ];
 
     const FUNCTIONS: &'static [Function<Self>] = &[

@@ -54,6 +54,7 @@ mod exponential_source_sum;
 #[cfg(feature = "fit")]
 pub mod fit;
 mod gaussian_sum;
+mod half_space;
 mod inverse;
 mod length;
 mod medium;
@@ -79,6 +80,7 @@ pub use edge_spread::EdgeSpread;
 pub use exponential_dipole::{ExponentialDipoleModel, ExponentialDipoleProfile};
 pub use exponential_source_sum::ExponentialSourceSum;
 pub use gaussian_sum::{GaussianSumModel, GaussianSumProfile, GaussianTerm};
+pub use half_space::HalfSpace;
 pub use length::Length;
 pub use medium::{Medium, MediumError};
 pub use mixture::{MixtureModel, MixturePart, MixtureProfile};

@@ -1,6 +1,7 @@
 //! The list of the profile models, and what all of them answer.
 
 use crate::description::{Argument, Contents, Dependence, Description, Field, ProfileModel, Slot};
+use crate::single_scattering_albedo::Entry;
 use crate::{
     BurleyModel, Channel, DipoleModel, ExponentialDipoleModel, GaussianSumModel, Length, Medium,
     MixtureModel, ModelError, PolynomialModel, RadialData, RadialProfile, TabulatedModel,
@@ -130,6 +131,7 @@ impl ModelKind {
                 word: set.word,
                 source: set.source,
                 fitted_surface_albedos: set.fitted_surface_albedos,
+                entry: set.entry,
                 model: (set.model)().into(),
             };
             <M as ProfileModel>::PUBLISHED.iter().map(set).collect()
@@ -181,6 +183,8 @@ pub struct PublishedSet {
     pub source: &'static str,
     /// Surface albedos of the stored truth that the set was fitted to; empty where that is not known.
     pub fitted_surface_albedos: &'static [f64],
+    /// How light enters the medium, index-matched, that it is a profile of; `None` where that is another medium.
+    pub entry: Option<Entry>,
     /// The coefficients.
     pub model: Model,
 }
@@ -208,6 +212,12 @@ impl Model {
     /// A published set by its stem, with its source.
     pub fn published_set(stem: &str) -> Option<PublishedSet> {
         ModelKind::ALL.iter().flat_map(|kind| kind.published()).find(|set| set.stem == stem)
+    }
+
+    /// How light enters the medium, index-matched, that this is a profile of: known of published sets.
+    pub fn entry(&self) -> Option<Entry> {
+        let mut sets = ModelKind::ALL.iter().flat_map(|kind| kind.published());
+        sets.find(|set| set.model == *self).and_then(|set| set.entry)
     }
 
     /// What is the same for every member of the model.

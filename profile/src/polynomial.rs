@@ -297,13 +297,15 @@ impl ProfileModel for PolynomialModel {
             "Liang2023",
             "Liang et al. 2023, eq. (7), (11)–(15), k₁ corrected to 0.0635",
             || Self::LIANG_2023,
-        ),
+        )
+        .entering(Entry::Searchlight),
         Published::new(
             "liang_2023_printed",
             "Liang2023Printed",
             "the same as printed, k₁ = 0.461; for comparison only",
             || Self::LIANG_2023_PRINTED,
-        ),
+        )
+        .entering(Entry::Searchlight),
     ];
 
     const FUNCTIONS: &'static [Function<Self>] = &[

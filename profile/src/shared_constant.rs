@@ -1,6 +1,6 @@
 //! Coefficients of formulas that have a twin in WGSL: the compiler declares them there.
 
-use crate::{dipole, single_scattering_albedo, slab};
+use crate::{dipole, half_space, single_scattering_albedo, slab};
 
 /// Coefficients that stand in Rust and in WGSL.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,6 +20,21 @@ pub const SHARED_CONSTANTS: &[SharedConstant] = &[
         name: "SEARCHLIGHT_ALBEDO",
         docs: "c₁, c₂, c₃ of the single-scattering albedo for perpendicular entry: q = (1 − A)(1 + c₁A) / (1 + c₂A + c₃A²).",
         values: &single_scattering_albedo::SEARCHLIGHT,
+    },
+    SharedConstant {
+        name: "DIFFUSE_ALBEDO",
+        docs: "c₁, c₂, c₃ of the same for diffuse entry.",
+        values: &single_scattering_albedo::DIFFUSE,
+    },
+    SharedConstant {
+        name: "HALF_SPACE_ANGLES",
+        docs: "p₀, p₁ − 1 and p₂ of a half-space's albedo by angle, over 1 − γ: coefficients of 1.",
+        values: &half_space::ANGLES[0],
+    },
+    SharedConstant {
+        name: "HALF_SPACE_SLOPES",
+        docs: "The same: coefficients of γ.",
+        values: &half_space::ANGLES[1],
     },
     SharedConstant {
         name: "INTERNAL_REFLECTANCE",

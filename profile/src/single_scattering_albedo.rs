@@ -22,12 +22,15 @@ pub enum Entry {
 /// c₁, c₂ and c₃ of q(A) for perpendicular entry; its twin in WGSL takes them from here.
 pub(crate) const SEARCHLIGHT: [f64; 3] = [1.02129, 3.27177, 1.60715];
 
+/// The same for diffuse entry.
+pub(crate) const DIFFUSE: [f64; 3] = [0.72146, 2.16390, 0.81192];
+
 impl Entry {
     /// c₁, c₂ and c₃ of q(A), fitted to exact values of H functions, see the module.
     const fn rational(self) -> [f64; 3] {
         match self {
             Entry::Searchlight => SEARCHLIGHT,
-            Entry::Diffuse => [0.72146, 2.16390, 0.81192],
+            Entry::Diffuse => DIFFUSE,
         }
     }
 }
@@ -46,6 +49,13 @@ pub fn from_surface_albedo(entry: Entry, surface_albedo: f64) -> f64 {
     } else {
         1.0 - q * q
     }
+}
+
+/// q = √(1 - α) of the medium whose surface albedo is `surface_albedo`, clamped to [0, 1].
+pub(crate) fn root(entry: Entry, surface_albedo: f64) -> f64 {
+    let a = surface_albedo.clamp(0.0, 1.0);
+    let [c1, c2, c3] = entry.rational();
+    (1.0 - a) * (1.0 + c1 * a) / (1.0 + (c2 + c3 * a) * a)
 }
 
 /// A of the medium whose single-scattering albedo is `single_scattering_albedo`: the inverse of

@@ -8,6 +8,7 @@ use crate::description::{
 use crate::dipole_source::DipoleSource;
 use crate::exponential_source_sum::{Exponential, ExponentialSourceSum};
 use crate::quantity::Bounds;
+use crate::single_scattering_albedo::Entry;
 use crate::{Channel, Length, Medium, ModelError, Quantity, RadialProfile};
 
 /// Two exponentials plus the two sources of a dipole. At mean free path 1,
@@ -185,8 +186,10 @@ impl ProfileModel for TwoExponentialDipoleModel {
 
     const PUBLISHED: &'static [Published<Self>] = &[
         Published::new("two_exponential_dipole_searchlight", "Searchlight", FITTED[0], || Self::SEARCHLIGHT)
+            .entering(Entry::Searchlight)
             .fitted_to(&Self::FITTED_SURFACE_ALBEDOS),
         Published::new("two_exponential_dipole_diffuse", "Diffuse", FITTED[1], || Self::DIFFUSE)
+            .entering(Entry::Diffuse)
             .fitted_to(&Self::FITTED_SURFACE_ALBEDOS),
         Published::new("two_exponential_dipole_searchlight_eta_1_4", "SearchlightEta1_4", FITTED[2], || {
             Self::SEARCHLIGHT_ETA_1_4

@@ -11,9 +11,10 @@ pub const TRANSLUCENT_STENCIL: u32 = 1;
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct GBuffer {
-    /// Diffuse irradiance, linear RGB; alpha 1 on geometry.
+    /// Diffuse irradiance, linear RGB; alpha is the share of it that the highlight's lobe lets out towards the camera.
     pub irradiance: Target,
-    /// Specular reflection + transmission: radiance that is not scattered; alpha 1 on geometry.
+    /// Specular reflection + transmission: radiance that is not scattered; alpha is 0 behind all geometry, and on it 1 or
+    /// the number of a diffuse lobe with the cosine at which light leaves (`pack_exit` of the shaders).
     pub unscattered: Target,
     /// Surface albedo (red, green, blue) and the material number, −1 where nothing is translucent.
     pub surface: Target,

@@ -7,10 +7,11 @@ mod gpu;
 use std::f64::consts::PI;
 
 use gpu::{Gpu, compile};
-use subsurface_profile::{Channel, Medium, Model, Slab};
+use subsurface_profile::single_scattering_albedo::Entry;
+use subsurface_profile::{Channel, HalfSpace, Medium, Model, Slab};
 use subsurface_runtime::{
-    Bounds, Camera, DirectionalLight, Extent, Frame, Geometry, LoadedKernel, Object, Renderer,
-    RendererDescriptor, SurfaceDescriptor, Target, Vertex, wgpu,
+    Bounds, Camera, CompositeSettings, DirectionalLight, Extent, Frame, Geometry, LoadedKernel, Object,
+    Renderer, RendererDescriptor, SurfaceDescriptor, Target, Vertex, wgpu,
 };
 
 /// Odd: a pixel is in the very middle.
@@ -21,8 +22,13 @@ const SURFACE_ALBEDO: [f64; 3] = [0.83, 0.64, 0.55];
 const MEAN_FREE_PATH_MM: [f64; 3] = [1.3, 0.95, 0.67];
 const REFLECTANCE_AT_NORMAL: f64 = 0.028;
 
-/// Skin that lets light through by a law, and fields of a caller's.
+/// Skin without angles of its own, under a mirror's reflectance, with fields of a caller's.
 fn skin(fields: &str) -> String {
+    medium(&format!("specular: (coupling: Entry), diffuse: Lambert, {fields}"))
+}
+
+/// Skin with fields of a caller's.
+fn medium(fields: &str) -> String {
     let [[ar, ag, ab], [lr, lg, lb]] = [SURFACE_ALBEDO, MEAN_FREE_PATH_MM];
     format!(
         "Material(profile: \"two_exponential_dipole_searchlight\", mean_free_path_mm: ({lr:?}, {lg:?}, {lb:?}), \
@@ -56,9 +62,15 @@ fn block(half: [f32; 3]) -> Mesh {
 
 /// A square that faces +z.
 fn quad() -> Mesh {
+    tilted(1.0)
+}
+
+/// A square whose normal has this cosine to +z.
+fn tilted(cosine: f64) -> Mesh {
+    let [sin, cos] = [(1.0 - cosine * cosine).sqrt() as f32, cosine as f32];
     let corner = |x: f32, y: f32| Vertex {
-        position: [0.05 * x, 0.05 * y, 0.0],
-        normal: [0.0, 0.0, 1.0],
+        position: [0.05 * x * cos, 0.05 * y, -0.05 * x * sin],
+        normal: [sin, 0.0, cos],
         texture_coordinate: [0.0; 2],
     };
     (vec![corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)], vec![0, 1, 2, 0, 2, 3])
@@ -114,16 +126,44 @@ impl<'a> Scene<'a> {
 
     /// The middle of the frame, seen from +z: irradiance, and what is not scattered.
     fn middle(&mut self, towards_light: [f64; 3], bounds: Bounds) -> [Texel; 2] {
-        let camera = Camera { position: [0.0, 0.0, 0.2], fov_y_radians: 0.05, ..Default::default() };
         let light =
             DirectionalLight { direction: towards_light.map(|x| -x as f32), irradiance: [PI as f32; 3] };
-        let frame = Frame { lights: &[light], ..Frame::new(camera, bounds, 1000.0) };
+        let [irradiance, unscattered, _] = self.lit(&[light], 0.0, bounds);
+        [irradiance, unscattered]
+    }
+
+    /// Radiance of the diffuse light in the middle, under a light of irradiance π or under light of radiance 1 from
+    /// everywhere.
+    fn diffuse(&mut self, towards_light: Option<[f64; 3]>) -> [f64; 3] {
+        let light = |towards: [f64; 3]| DirectionalLight {
+            direction: towards.map(|x| -x as f32),
+            irradiance: [PI as f32; 3],
+        };
+        let lights: Vec<DirectionalLight> = towards_light.map(light).into_iter().collect();
+        let ambient = if lights.is_empty() { PI as f32 } else { 0.0 };
+        let [_, unscattered, picture] = self.lit(&lights, ambient, Bounds::new([0.0; 3], 0.1));
+        [0, 1, 2].map(|channel: usize| picture[channel] - unscattered[channel])
+    }
+
+    /// The middle of the frame, seen from +z: irradiance, what is not scattered, and the picture.
+    fn lit(&mut self, lights: &[DirectionalLight], ambient: f32, bounds: Bounds) -> [Texel; 3] {
+        let camera = Camera { position: [0.0, 0.0, 0.2], fov_y_radians: 0.05, ..Default::default() };
+        let frame = Frame {
+            lights,
+            ambient_irradiance: [ambient; 3],
+            taps: Some(0),
+            composite: CompositeSettings { tone_map: false, ..Default::default() },
+            ..Frame::new(camera, bounds, 1000.0)
+        };
         self.renderer.prepare(&self.gpu.queue, &frame).expect("resized above");
         let output =
             Target::new(&self.gpu.device, SIZE, wgpu::TextureFormat::Rgba32Float, "picture").expect("small");
         self.gpu.submit(|encoder| self.renderer.encode(encoder, &self.objects, &output.view));
+        let picture: Vec<[f32; 4]> = bytemuck::pod_collect_to_vec(&self.gpu.read_texture(&output.texture));
         let targets = self.renderer.targets().expect("resized above");
-        [&targets.irradiance, &targets.unscattered].map(|target| self.texel(target))
+        let [irradiance, unscattered] =
+            [&targets.irradiance, &targets.unscattered].map(|target| self.texel(target));
+        [irradiance, unscattered, picture[MIDDLE].map(f64::from)]
     }
 
     /// The middle of a target.
@@ -146,7 +186,7 @@ fn half(bytes: [u8; 2]) -> f64 {
     if bits >> 15 == 0 { size } else { -size }
 }
 
-/// Share of the light that a surface lets in at a cosine, [`Schlick`](../../shaders/light/fresnel.wgsl).
+/// Share of the light that a surface lets in at a cosine under `coupling: Entry`.
 fn entering(cosine: f64) -> f64 {
     1.0 - REFLECTANCE_AT_NORMAL - (1.0 - REFLECTANCE_AT_NORMAL) * (1.0 - cosine).powi(5)
 }
@@ -288,5 +328,115 @@ fn a_sheet_sends_back_and_lets_through_what_a_slab_does() {
         }
         // It has no material whose light diffuses.
         assert_eq!(sheet[3], -1.0);
+    }
+}
+
+/// The direction of a light that falls on `tilted(view)` at the cosine `light`, from beside.
+fn beside(view: f64, light: f64) -> [f64; 3] {
+    let sin = (1.0 - view * view).sqrt();
+    [light * sin, (1.0 - light * light).sqrt(), light * view]
+}
+
+const COSINES: [f64; 6] = [1.0, 0.8, 0.5, 0.3, 0.15, 0.05];
+
+/// Share of the light that the specular lobe sends back, seen at a cosine: ∫ f μ_l dω_l over half vectors whose angle θ
+/// to the normal is such that tan θ = α tan ψ with even steps of ψ.
+fn specular_albedo(view: f64, roughness: f64, reflectance_at_normal: f64) -> f64 {
+    const STEPS: [u32; 2] = [400, 200];
+    let (alpha, k) = (roughness * roughness, (roughness + 1.0).powi(2) / 8.0);
+    let masked = |cosine: f64| cosine * (1.0 - k) + k;
+    let [psi_step, turn_step] = [PI / 2.0 / f64::from(STEPS[0]), PI / f64::from(STEPS[1])];
+    let mut sum = 0.0;
+    for place in 0..STEPS[0] * STEPS[1] {
+        let psi = (f64::from(place / STEPS[1]) + 0.5) * psi_step;
+        let turn = (f64::from(place % STEPS[1]) + 0.5) * turn_step;
+        let theta = (alpha * psi.tan()).atan();
+        let theta_by_psi = alpha / (psi.cos().powi(2) + (alpha * psi.sin()).powi(2));
+        let (sin, cos) = theta.sin_cos();
+        let view_half = view * cos + (1.0 - view * view).sqrt() * sin * turn.cos();
+        let light = 2.0 * view_half * cos - view;
+        if light <= 0.0 || view_half <= 0.0 {
+            continue;
+        }
+        let narrowing = cos * cos * (alpha * alpha - 1.0) + 1.0;
+        let distribution = alpha * alpha / (PI * narrowing * narrowing);
+        let fresnel = reflectance_at_normal + (1.0 - reflectance_at_normal) * (1.0 - view_half).powi(5);
+        let brdf = distribution * fresnel / (4.0 * masked(light) * masked(view));
+        sum += brdf * light * 4.0 * view_half * sin * theta_by_psi;
+    }
+    // Both halves of the turn are alike.
+    2.0 * sum * psi_step * turn_step
+}
+
+#[test]
+fn a_white_furnace_is_white_at_every_roughness() {
+    let gpu = Gpu::open();
+    let mut worst = 0.0_f64;
+    for (roughness, reflectance) in [(0.2, 0.028), (0.33, 0.2), (0.4, 0.028), (0.8, 0.028), (1.0, 0.5)] {
+        let white = format!(
+            "Material(profile: \"two_exponential_dipole_searchlight\", mean_free_path_mm: (1.0, 1.0, 1.0), \
+             surface_albedo: (1.0, 1.0, 1.0), specular: (reflectance_at_normal: {reflectance:?}, \
+             roughness: {roughness:?}))"
+        );
+        for view in COSINES {
+            let mut scene = Scene::new(&gpu, &white, &[tilted(view)]);
+            let reflected = specular_albedo(view, roughness, reflectance);
+            for channel in scene.diffuse(None) {
+                worst = worst.max((channel + reflected - 1.0).abs());
+                assert!(
+                    (channel + reflected - 1.0).abs() < 2e-3,
+                    "{roughness}, {reflectance} at {view}: {channel} + {reflected}"
+                );
+            }
+        }
+    }
+    println!("off by {worst:.1e} at most");
+}
+
+#[test]
+fn light_that_goes_back_the_way_it_came_is_as_bright() {
+    let gpu = Gpu::open();
+    for fields in ["", "diffuse: Lambert", "specular: (roughness: 0.9)"] {
+        let seen = |view: f64, light: f64| {
+            let mut scene = Scene::new(&gpu, &medium(fields), &[tilted(view)]);
+            scene.diffuse(Some(beside(view, light))).map(|radiance| radiance / light)
+        };
+        for (one, other) in [(1.0, 0.5), (0.8, 0.15), (0.3, 0.5), (0.15, 1.0)] {
+            for (there, back) in seen(one, other).into_iter().zip(seen(other, one)) {
+                // Three half floats on the way: irradiance, the specular share and the angle.
+                assert!((there / back - 1.0).abs() < 3e-3, "{fields} {one}, {other}: {there}, {back}");
+            }
+        }
+    }
+}
+
+#[test]
+fn angles_are_those_of_the_half_space() {
+    let gpu = Gpu::open();
+    for (stem, entry) in
+        [("two_exponential_dipole_searchlight", Entry::Searchlight), ("burley_diffuse", Entry::Diffuse)]
+    {
+        let [ar, ag, ab] = SURFACE_ALBEDO;
+        let text = format!(
+            "Material(profile: \"{stem}\", mean_free_path_mm: (1.0, 1.0, 1.0), \
+             surface_albedo: ({ar:?}, {ag:?}, {ab:?}), specular: (coupling: None))"
+        );
+        let media = SURFACE_ALBEDO.map(|albedo| HalfSpace::of(entry, albedo));
+        for view in COSINES {
+            let mut scene = Scene::new(&gpu, &text, &[tilted(view)]);
+            let check = |radiance: [f64; 3], arriving: &dyn Fn(&HalfSpace) -> f64, what: &str| {
+                for (channel, medium) in media.iter().enumerate() {
+                    let expected = SURFACE_ALBEDO[channel] * arriving(medium) * medium.exit(view);
+                    // Half floats: of light, and of the angle, where the albedo is steep.
+                    let off = (radiance[channel] / expected - 1.0).abs();
+                    assert!(off < 4e-3, "{stem}, {what}, seen at {view}: {radiance:?}, {expected}");
+                }
+            };
+            check(scene.diffuse(None), &HalfSpace::diffuse_entry, "light from everywhere");
+            for light in COSINES {
+                let radiance = scene.diffuse(Some(beside(view, light)));
+                check(radiance, &|medium| light * medium.entry(light), &format!("a light at {light}"));
+            }
+        }
     }
 }

@@ -17,6 +17,10 @@ struct MaterialSurface {
     thin_thickness_mm: f32,
     /// Roughness of the specular lobe (square root of the GGX α), 0 to 1.
     roughness: f32,
+    /// How diffuse light knows of the specular lobe: one of the `COUPLING_…` constants.
+    coupling: u32,
+    /// How diffuse light depends on its angles: one of the `DIFFUSE_…` constants.
+    diffuse: u32,
     /// Factor on the light that comes through from the far side, 0 for none.
     transmission_strength: f32,
     /// First row of the quantile curves of its profile in `profile_curves`.

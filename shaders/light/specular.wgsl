@@ -1,4 +1,4 @@
-// uses: lib/angle, light/fresnel
+// uses: kernel/constants, lib/angle, light/fresnel
 
 // Torrance–Sparrow in the form of Karis 2013, "Real Shading in Unreal Engine 4": GGX, Smith with Schlick's
 // approximation, Schlick's Fresnel term.
@@ -24,10 +24,9 @@ fn specular_reflection(normal: vec3f, light: vec3f, view: vec3f, reflectance_at_
     if normal_dot_light <= 0.0 {
         return 0.0;
     }
-    // Interpolated normals may face away from the viewer by a hair; 1e-3 keeps the visibility term finite.
-    let normal_dot_view = max(dot(normal, view), 1e-3);
+    let normal_dot_view = max(dot(normal, view), LEAST_VIEW_COSINE);
     let half_vector = normalize(light + view);
-    let distribution = ggx_distribution(max(dot(normal, half_vector), 0.0), max(roughness, 0.02));
+    let distribution = ggx_distribution(max(dot(normal, half_vector), 0.0), max(roughness, LEAST_ROUGHNESS));
     let visibility = smith_schlick_visibility(normal_dot_light, normal_dot_view, roughness);
     return distribution
         * visibility

@@ -1,4 +1,4 @@
-// uses: gather/{channel, material, profile}, lib/{slab, vogel_disc}, light/{diffuse, directional_light, lit_surface, shadow}; needs: shadow_comparison, shadow_maps
+// uses: gather/{channel, material, profile}, lib/{slab, vogel_disc}, light/{coupling, directional_light, lit_surface, shadow}; needs: shadow_comparison, shadow_maps
 
 // Light that enters on the far side of an object and leaves on this one. How far it travels in between, the light's
 // shadow map says; what is left of it, the material's law.
@@ -43,13 +43,13 @@ fn sheet_irradiance(
     layer: u32,
     world_position: vec3f,
     normal: vec3f,
-    reflectance_at_normal: f32,
+    specular: SpecularSurface,
 ) -> vec3f {
     let facing_away = max(-dot(normal, light.towards_light), 0.0);
     let lifted = world_position - light.shadow_normal_offset * normal;
     let coordinate = (light.shadow_from_world * vec4f(lifted, 1.0)).xyz;
     let visibility = shadow_visibility(shadow_maps, shadow_comparison, coordinate, layer, light.shadow_filter_radius);
-    return entering_irradiance(light.irradiance * visibility, facing_away, reflectance_at_normal);
+    return light.irradiance * (visibility * facing_away * entering_share(specular, facing_away));
 }
 
 /// Share of the light that enters on the far side which comes through: the mean transmittance around the point.

@@ -1,4 +1,4 @@
-// uses: lib/{angle, covering_triangle, tone}
+// uses: lib/{angle, covering_triangle, medium_angles, tone}
 
 /// How radiance becomes a picture.
 struct CompositeSettings {
@@ -15,9 +15,9 @@ struct CompositeSettings {
 }
 
 @group(0) @binding(0) var<uniform> composite_settings: CompositeSettings;
-/// Irradiance after the subsurface pass.
+/// Irradiance after the subsurface pass; alpha is the share of it that the specular lobe lets out.
 @group(0) @binding(1) var diffused_texture: texture_2d<f32>;
-/// Specular reflection + transmission, radiance.
+/// Specular reflection + transmission, radiance; alpha: see `pack_exit`, 0 behind all geometry.
 @group(0) @binding(2) var unscattered_texture: texture_2d<f32>;
 /// Surface albedo (red, green, blue).
 @group(0) @binding(3) var surface_texture: texture_2d<f32>;
@@ -27,9 +27,7 @@ fn composite_vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec
     return covering_triangle(index);
 }
 
-/// L = E A / π + specular + transmission, then exposure, tone mapping and sRGB.
-///
-/// The targets' alpha is 1 on geometry and 0 behind it.
+/// L = E A / π · exit + specular + transmission, then exposure, tone mapping and sRGB.
 @fragment
 fn composite_fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let pixel = vec2i(position.xy);
@@ -39,7 +37,8 @@ fn composite_fragment(@builtin(position) position: vec4f) -> @location(0) vec4f 
 
     let height = f32(textureDimensions(diffused_texture).y);
     let background = mix(composite_settings.background_top, composite_settings.background_bottom, position.y / height);
-    let lit = diffused.rgb * surface_albedo / PI + unscattered.rgb;
+    let exit = diffused.a * exit_of(unscattered.a, surface_albedo);
+    let lit = diffused.rgb * surface_albedo / PI * exit + unscattered.rgb;
     let radiance = composite_settings.exposure * select(background, lit, unscattered.a > 0.5);
 
     var colour = radiance;
@@ -49,5 +48,5 @@ fn composite_fragment(@builtin(position) position: vec4f) -> @location(0) vec4f 
     if composite_settings.encode_srgb != 0u {
         colour = srgb_from_linear(colour);
     }
-    return vec4f(colour, unscattered.a);
+    return vec4f(colour, min(unscattered.a, 1.0));
 }

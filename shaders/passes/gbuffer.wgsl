@@ -1,4 +1,4 @@
-// uses: gather/input, kernel/constants, lib/{angle, numeric_limits, object_transform, slab}, light/{diffuse, directional_light, normal_map, shadow, specular, transmission}, the material set
+// uses: gather/input, kernel/constants, lib/{angle, medium_angles, numeric_limits, object_transform, slab}, light/{coupling, directional_light, normal_map, shadow, specular, transmission}, the material set
 
 /// Camera and lights of one frame.
 struct GBufferFrame {
@@ -59,9 +59,9 @@ struct GBufferInterpolated {
 
 /// The three colour targets.
 struct GBufferTargets {
-    /// Diffuse irradiance.
+    /// Diffuse irradiance; alpha is the share of it that the specular lobe lets out towards the camera.
     @location(0) irradiance: vec4f,
-    /// Specular reflection + transmission: radiance that the subsurface pass leaves alone.
+    /// Specular reflection + transmission: radiance that the subsurface pass leaves alone; alpha: see `pack_exit`.
     @location(1) unscattered: vec4f,
     /// Surface albedo and the material number.
     @location(2) surface: vec4f,
@@ -104,7 +104,13 @@ fn gbuffer_fragment(interpolated: GBufferInterpolated, @builtin(front_facing) fr
     let transmission = frame.transmission * select(0.0, row.surface.transmission_strength, translucent);
     let is_thin = translucent && row.surface.thin_thickness_mm > 0.0;
 
-    var irradiance = entering_ambient_irradiance(frame.ambient_irradiance, reflectance);
+    let coupling = select(COUPLING_FULL, row.surface.coupling, translucent);
+    let specular = SpecularSurface(coupling, reflectance, roughness);
+    // A sheet has no half-space below it.
+    let medium = medium_angles(select(DIFFUSE_LAMBERT, row.surface.diffuse, translucent && !is_thin), surface_albedo);
+
+    var irradiance =
+        frame.ambient_irradiance * entering_ambient_share(specular) * medium_ambient_entry(medium);
     var unscattered = vec3f(0.0);
     for (var i = 0u; i < min(frame.light_count, LIGHT_CAPACITY); i += 1u) {
         let light = frame.lights[i];
@@ -117,17 +123,17 @@ fn gbuffer_fragment(interpolated: GBufferInterpolated, @builtin(front_facing) fr
         let facing = select(1.0, clamp(true_cosine * 8.0, 0.0, 1.0), object.normal_scale > 0.0);
         let cosine = max(dot(normal, light.towards_light), 0.0);
         let arriving = light.irradiance * visibility * facing;
-        irradiance += entering_irradiance(arriving, cosine, reflectance);
+        irradiance += arriving * (cosine * entering_share(specular, cosine)) * medium_entry(medium, cosine);
         unscattered +=
             arriving * specular_reflection(normal, light.towards_light, towards_camera, reflectance, roughness);
         if is_thin {
             unscattered += transmission
-                * sheet_irradiance(light, i, interpolated.world_position, smooth_normal, reflectance)
+                * sheet_irradiance(light, i, interpolated.world_position, smooth_normal, specular)
                 * slab_transmittance(surface_albedo, row.surface.slab_mean_free_path_mm, row.surface.thin_thickness_mm)
                 / PI;
         } else if transmission > 0.0 {
             let facing_away = max(-true_cosine, 0.0);
-            let entering = entering_irradiance(light.irradiance, facing_away, reflectance);
+            let entering = light.irradiance * (facing_away * entering_share(specular, facing_away));
             let position = interpolated.world_position;
             let through = transmitted_share(light, i, position, smooth_normal, row.surface, profiles, surface_albedo);
             unscattered += transmission * entering * through / PI;
@@ -136,8 +142,9 @@ fn gbuffer_fragment(interpolated: GBufferInterpolated, @builtin(front_facing) fr
 
     var targets: GBufferTargets;
     // The targets hold half floats: a mirror's highlight must end at their largest value, not at infinity.
-    targets.irradiance = vec4f(min(irradiance, vec3f(LARGEST_HALF)), 1.0);
-    targets.unscattered = vec4f(min(unscattered, vec3f(LARGEST_HALF)), 1.0);
+    let view_cosine = max(dot(normal, towards_camera), LEAST_VIEW_COSINE);
+    targets.irradiance = vec4f(min(irradiance, vec3f(LARGEST_HALF)), leaving_share(specular, view_cosine));
+    targets.unscattered = vec4f(min(unscattered, vec3f(LARGEST_HALF)), pack_exit(medium.diffuse, view_cosine));
     targets.surface = vec4f(surface_albedo, select(-1.0, f32(object.material), translucent));
     if is_thin {
         // A sheet sends back what a slab does, from where it entered.

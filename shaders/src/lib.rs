@@ -42,6 +42,8 @@ pub const LIBRARY: &[Module] = modules![
     "lib/distance",
     "lib/exponential",
     "lib/exponential_source_sum",
+    "lib/half_space",
+    "lib/medium_angles",
     "lib/noise",
     "lib/numeric_limits",
     "lib/object_transform",
@@ -126,13 +128,14 @@ pub const KERNELS: &[Module] = modules![
 
 /// Light on surfaces: what enters, what is reflected, what comes through.
 pub const LIGHT: &[Module] = modules![
-    "light/diffuse",
+    "light/coupling",
     "light/directional_light",
     "light/fresnel",
     "light/lit_surface",
     "light/normal_map",
     "light/shadow",
     "light/specular",
+    "light/specular_albedo",
     "light/transmission",
 ];
 

@@ -1,5 +1,6 @@
 //! Bindings of the runtime's own passes, which no material set changes.
 
+use crate::constants::shared_constants;
 use proc_macro2::TokenStream;
 use quote::quote;
 use subsurface_shaders::{LIBRARY, Module, PASSES};
@@ -32,7 +33,8 @@ pub fn runtime_bindings() -> Result<String, Report> {
         let mut report = Report::default();
         let module_name = format!("passes/{name}");
         let pass: Vec<Module> = PASSES.iter().filter(|pass| pass.name == module_name).copied().collect();
-        let files = Files { rooms: LIBRARY, passes: &pass, guests: &[] };
+        let rooms: Vec<Module> = LIBRARY.iter().copied().chain(shared_constants()).collect();
+        let files = Files { rooms: &rooms, passes: &pass, guests: &[] };
         let header = format!("// Linked by subsurface-codegen from {module_name} and what it calls.\n");
         let linked = link(files, &Glue::default(), roots, &header);
         let linked = linked.map_err(|error| report_of(&error.to_string()))?;

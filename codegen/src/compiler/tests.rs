@@ -86,8 +86,8 @@ fn provenance_follows_the_inputs() {
 fn equal_gaussian_sums_share_their_terms() {
     let skin = || material("\"gaussian_skin\"");
     let compilation = compile(&[("a.ron", skin()), ("b.ron", skin())]);
-    // A row for each channel, and one that the six terms begin.
-    assert_eq!(compilation.parts.curve_size(), [64, 4]);
+    // A row for each channel, and one that the six terms begin; then those of the lobe.
+    assert_eq!(compilation.parts.curve_size(), [64, 4 + 34]);
     let term = |index: usize| -> Vec<f32> {
         let texel = &compilation.parts.profile_curves()[16 * (3 * 64 + index)..][..16];
         texel.chunks(4).map(|bytes| f32::from_le_bytes(bytes.try_into().expect("four bytes"))).collect()
@@ -183,12 +183,12 @@ fn every_kernel_compiles_with_every_profile() {
         assert!(compilation.wgsl().contains(&format!("// Estimator: {kernel}\n")), "{kernel}");
         let has_edges = matches!(kernel, Estimator::Separable { .. });
         // No two of the published models are equal; a table and a mixture beside them, and a row more for the terms of
-        // the Gaussian sum.
+        // the Gaussian sum. Behind them all, two for each roughness of the lobe, and two of means.
         let published = subsurface_profile::Model::PUBLISHED.map(|stem| {
             let model = subsurface_profile::Model::published(stem).expect("its own list");
             if model.dependence().on_channel() { 3 } else { 16 }
         });
-        let rows = if has_edges { 3 } else { 1 } * (published.iter().sum::<u32>() + 16 + 48) + 1;
+        let rows = if has_edges { 3 } else { 1 } * (published.iter().sum::<u32>() + 16 + 48) + 1 + 34;
         assert_eq!(compilation.parts.curve_size(), [64, rows], "{kernel}");
     }
 }

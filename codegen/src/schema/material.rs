@@ -4,10 +4,11 @@ use subsurface_profile::Length;
 
 use crate::diagnostics::Diagnostic;
 use crate::identifier;
-use crate::material::Transmittance;
+use crate::material::{Coupling, Transmittance};
 use crate::schema::body::Body;
 use crate::schema::choice::choice;
 use crate::schema::decoder::{Decoder, Fields, Given, Triple, head};
+use crate::schema::diffuse::{DiffuseGiven, decode_diffuse};
 use crate::schema::profile::{ProfileExpression, decode_profile};
 use crate::schema::quantity::{
     DIFFUSE_MEAN_FREE_PATH, MEAN_FREE_PATH, REFLECTANCE, ROUGHNESS, SURFACE_ALBEDO, THICKNESS, TRANSMISSION,
@@ -35,6 +36,8 @@ pub(crate) struct MaterialFile {
     pub(crate) surface_albedo: Given<Triple>,
     pub(crate) reflectance_at_normal: Given<Spanned<f64>>,
     pub(crate) roughness: Given<Spanned<f64>>,
+    pub(crate) coupling: Given<Coupling>,
+    pub(crate) diffuse: Given<Spanned<DiffuseGiven>>,
     pub(crate) transmission_strength: Given<Spanned<f64>>,
     pub(crate) transmittance: Given<Spanned<Transmittance>>,
     pub(crate) thin_thickness_mm: Given<Spanned<f64>>,
@@ -50,7 +53,7 @@ pub(crate) struct LengthGiven {
     pub(crate) value: Triple,
 }
 
-const FIELDS: [&str; 11] = [
+const FIELDS: [&str; 12] = [
     "version",
     "name",
     "base",
@@ -59,14 +62,19 @@ const FIELDS: [&str; 11] = [
     "diffuse_mean_free_path_mm",
     "surface_albedo",
     "specular",
+    "diffuse",
     "transmission_strength",
     "transmittance",
     "thin",
 ];
 
 /// Fields that a reader may look for one level higher than they are.
-const GROUPED: [(&str, &str); 3] =
-    [("reflectance_at_normal", "specular"), ("roughness", "specular"), ("thickness_mm", "thin")];
+const GROUPED: [(&str, &str); 4] = [
+    ("reflectance_at_normal", "specular"),
+    ("roughness", "specular"),
+    ("coupling", "specular"),
+    ("thickness_mm", "thin"),
+];
 
 /// Decodes the file of a material; `None` when nothing in it can be trusted.
 pub(crate) fn decode_material(
@@ -143,7 +151,8 @@ fn decode_fields(
     let length = decode_length(decoder, &fields);
     let surface_albedo = fields
         .optional("surface_albedo", |node| decoder.triple(node, "surface_albedo", RGB, &SURFACE_ALBEDO));
-    let (reflectance_at_normal, roughness) = decode_specular(decoder, &fields);
+    let SpecularGiven { reflectance_at_normal, roughness, coupling } = decode_specular(decoder, &fields);
+    let diffuse = fields.optional("diffuse", |node| decode_diffuse(decoder, node));
     let transmission_strength = fields.optional("transmission_strength", |node| {
         decoder.spanned_number(node, "transmission_strength", &TRANSMISSION)
     });
@@ -163,6 +172,8 @@ fn decode_fields(
         surface_albedo,
         reflectance_at_normal,
         roughness,
+        coupling,
+        diffuse,
         transmission_strength,
         transmittance,
         thin_thickness_mm,
@@ -197,22 +208,50 @@ fn decode_length(decoder: &mut Decoder, fields: &Fields<'_>) -> Given<LengthGive
     }
 }
 
-fn decode_specular(decoder: &mut Decoder, fields: &Fields<'_>) -> (Given<Spanned<f64>>, Given<Spanned<f64>>) {
-    let Some(entry) = fields.get("specular") else { return (Given::Absent, Given::Absent) };
+/// The fields of `specular`.
+struct SpecularGiven {
+    reflectance_at_normal: Given<Spanned<f64>>,
+    roughness: Given<Spanned<f64>>,
+    coupling: Given<Coupling>,
+}
+
+fn decode_specular(decoder: &mut Decoder, fields: &Fields<'_>) -> SpecularGiven {
+    let Some(entry) = fields.get("specular") else {
+        return SpecularGiven {
+            reflectance_at_normal: Given::Absent,
+            roughness: Given::Absent,
+            coupling: Given::Absent,
+        };
+    };
     let entries = match entry.value.shape() {
         Shape::Struct(None, entries) => entries,
         Shape::Tuple(None, nodes) if nodes.is_empty() => Vec::new(),
         _ => {
             let help = "write `specular: (reflectance_at_normal: 0.028, roughness: 0.40)`";
-            decoder.wrong_type(&entry.value, "specular", "named numbers", help);
-            return (Given::Bad, Given::Bad);
+            decoder.wrong_type(&entry.value, "specular", "named values", help);
+            return SpecularGiven {
+                reflectance_at_normal: Given::Bad,
+                roughness: Given::Bad,
+                coupling: Given::Bad,
+            };
         }
     };
     let head = head(None, &entry.value);
-    let inner = decoder.fields("`specular`", head, entries, &["reflectance_at_normal", "roughness"]);
+    let known = ["reflectance_at_normal", "roughness", "coupling"];
+    let inner = decoder.fields("`specular`", head, entries, &known);
     let mut number =
         |name, quantity| inner.optional(name, |node| decoder.spanned_number(node, name, quantity));
-    (number("reflectance_at_normal", &REFLECTANCE), number("roughness", &ROUGHNESS))
+    let reflectance_at_normal = number("reflectance_at_normal", &REFLECTANCE);
+    let roughness = number("roughness", &ROUGHNESS);
+    let coupling = inner.optional("coupling", |node| {
+        // In RON the word is one of its own, for an option.
+        if node.text() == Coupling::None.name() {
+            return Some(Coupling::None);
+        }
+        let word = choice(decoder, node, "coupling", &Coupling::ALL.map(Coupling::name))?;
+        Coupling::ALL.into_iter().find(|coupling| coupling.name() == word)
+    });
+    SpecularGiven { reflectance_at_normal, roughness, coupling }
 }
 
 fn decode_thin(decoder: &mut Decoder, fields: &Fields<'_>) -> Given<Spanned<f64>> {

@@ -5,6 +5,7 @@
 mod body;
 mod choice;
 mod decoder;
+mod diffuse;
 mod material;
 mod model;
 mod model_error_text;
@@ -14,6 +15,7 @@ mod quantity;
 mod set_file;
 
 pub(crate) use decoder::{Decoder, Given, Tables, Triple};
+pub(crate) use diffuse::{DiffuseGiven, no_entry};
 pub(crate) use material::{LengthGiven, MaterialFile, SCHEMA_VERSION, decode_material};
 pub(crate) use model::length_word;
 pub(crate) use profile::{ProfileExpression, ProfileFile, decode_profile_file};

@@ -47,9 +47,10 @@ impl Default for CompositeDescriptor<'_> {
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct CompositeInputs<'a> {
-    /// Diffused irradiance, linear RGB.
+    /// Diffused irradiance, linear RGB; alpha is the share of it that is let out, 1 for all.
     pub diffused: &'a wgpu::TextureView,
-    /// Specular reflection + transmission; alpha 1 on geometry, 0 where the background shows.
+    /// Specular reflection + transmission; alpha is 0 where the background shows, and on geometry 1 or what
+    /// [`GBuffer::unscattered`](crate::GBuffer::unscattered) says.
     pub unscattered: &'a wgpu::TextureView,
     /// Surface albedo.
     pub surface: &'a wgpu::TextureView,
@@ -94,7 +95,7 @@ impl Default for CompositeSettings {
 
 /// Multiplies with the surface albedo, adds what was not scattered and maps to the display.
 ///
-/// The picture's alpha is that of `unscattered`: 1 on geometry and 0 on the background, whose colour is written all the
+/// The picture's alpha is 1 on geometry and 0 on the background, whose colour is written all the
 /// same. Colours are not multiplied by it.
 #[derive(Debug)]
 pub struct CompositePass(CoveringPass);

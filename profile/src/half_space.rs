@@ -1,0 +1,155 @@
+//! What a half-space reflects, by the angle at which light enters or leaves.
+
+use crate::single_scattering_albedo::{DIFFUSE, Entry, root};
+
+/// Coefficients of 1 and γ of p₀, p₁ − 1 and p₂ over 1 − γ; their twins in WGSL take them from here.
+pub(crate) const ANGLES: [[f64; 3]; 2] = [[0.93508, -0.46367, -0.93674], [-0.15935, 0.09999, 0.15008]];
+
+/// A flat, semi-infinite, index-matched medium that scatters isotropically, as Chandrasekhar 1960, "Radiative Transfer",
+/// solves it.
+///
+/// Light that enters at the cosine μ returns with the share A(μ) = 1 − γ H(μ), γ = √(1 − α): more at a grazing angle than
+/// at a steep one. H has no closed form; 1/H is taken as
+///
+/// 1/H(μ) = γ + (1 − γ) u, u = 1 − μ (p₀ + (p₁ + p₂ μ) ln(1 + 1/μ)),
+///
+/// with p₀ and p₂ and p₁ − 1 quadratic in γ and 0 at γ = 1: the form of Hapke 2002, "Bidirectional Reflectance
+/// Spectroscopy 5", with coefficients fitted to exact values. Then A(μ) = (1 − γ) u H(μ), which is within 4.6e-4 of the
+/// exact one, in relation to it, for every μ and every α.
+///
+/// ```
+/// use subsurface_profile::HalfSpace;
+/// use subsurface_profile::single_scattering_albedo::Entry;
+///
+/// let skin = HalfSpace::of(Entry::Searchlight, 0.64);
+/// assert!(skin.entry(0.2) > 1.2 && (skin.entry(1.0) - 1.0).abs() < 1e-12);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HalfSpace {
+    entry: Entry,
+    /// γ.
+    root: f64,
+}
+
+impl HalfSpace {
+    /// The medium whose surface albedo is A, clamped to [0, 1], where light enters as `entry` says.
+    pub fn of(entry: Entry, surface_albedo: f64) -> Self {
+        Self { entry, root: root(entry, surface_albedo) }
+    }
+
+    /// A(μ): share of the light that enters at the cosine μ > 0 and returns, in all directions together.
+    pub fn albedo(&self, cosine: f64) -> f64 {
+        (1.0 - self.root) * self.relative_albedo(cosine)
+    }
+
+    /// Ā = 2 ∫ A(μ) μ dμ: the same of light that enters from everywhere alike.
+    pub fn diffuse_albedo(&self) -> f64 {
+        (1.0 - self.root) * self.relative_diffuse_albedo()
+    }
+
+    /// Light that returns where it enters at the cosine μ, over what a profile of this medium is normalized by: A(μ)/A(1)
+    /// where that is for perpendicular entry, A(μ)/Ā where it is for diffuse. At A = 0 the limit.
+    pub fn entry(&self, cosine: f64) -> f64 {
+        self.relative_albedo(cosine) / self.relative_albedo_of_profile()
+    }
+
+    /// The same of light that enters from everywhere alike.
+    pub fn diffuse_entry(&self) -> f64 {
+        self.relative_diffuse_albedo() / self.relative_albedo_of_profile()
+    }
+
+    /// Radiance that leaves at the cosine μ over Lambert's: A(μ)/Ā, as reciprocity demands. 2 ∫ exit(μ) μ dμ is 1.
+    pub fn exit(&self, cosine: f64) -> f64 {
+        self.relative_albedo(cosine) / self.relative_diffuse_albedo()
+    }
+
+    /// A(μ)/(1 − γ), which does not vanish with A.
+    fn relative_albedo(&self, cosine: f64) -> f64 {
+        let lost = 1.0 - self.root;
+        let [p0, p1, p2] = [0, 1, 2].map(|i: usize| lost * (ANGLES[0][i] + ANGLES[1][i] * self.root));
+        let u = 1.0 - cosine * (p0 + (1.0 + p1 + p2 * cosine) * (1.0 / cosine).ln_1p());
+        u / (self.root + lost * u)
+    }
+
+    /// Ā/(1 − γ): (1 − A)(1 + c₁A) = γ (1 + c₂A + c₃A²) solved for A.
+    fn relative_diffuse_albedo(&self) -> f64 {
+        let [c1, c2, c3] = DIFFUSE;
+        let (linear, quadratic) = (1.0 - c1 + c2 * self.root, c1 + c3 * self.root);
+        2.0 / (linear + (linear * linear + 4.0 * quadratic * (1.0 - self.root)).sqrt())
+    }
+
+    fn relative_albedo_of_profile(&self) -> f64 {
+        match self.entry {
+            Entry::Searchlight => self.relative_albedo(1.0),
+            Entry::Diffuse => self.relative_diffuse_albedo(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const ALBEDOS: [f64; 8] = [0.0, 1e-6, 0.1, 0.3, 0.55, 0.83, 0.98, 1.0];
+    const ENTRIES: [Entry; 2] = [Entry::Searchlight, Entry::Diffuse];
+
+    /// 2 ∫ f(μ) μ dμ by the midpoint rule: functions bend as μ ln μ at 0, where the weight is small.
+    fn mean(f: impl Fn(f64) -> f64) -> f64 {
+        const STEPS: u32 = 2000;
+        let cosine = |step: u32| (f64::from(step) + 0.5) / f64::from(STEPS);
+        (0..STEPS).map(|step| 2.0 * cosine(step) * f(cosine(step))).sum::<f64>() / f64::from(STEPS)
+    }
+
+    #[test]
+    fn albedos_are_chandrasekhars() {
+        // α = 0.9, by H functions.
+        let medium = HalfSpace { entry: Entry::Searchlight, root: 0.1_f64.sqrt() };
+        for (cosine, exact) in [(1.0, 0.41495), (0.5, 0.50794), (0.2, 0.59161)] {
+            assert!(
+                (medium.albedo(cosine) / exact - 1.0).abs() < 5e-4,
+                "{} at {cosine}",
+                medium.albedo(cosine)
+            );
+        }
+    }
+
+    #[test]
+    fn what_enters_from_everywhere_is_the_mean() {
+        for (entry, albedo) in ENTRIES.iter().flat_map(|entry| ALBEDOS.map(|albedo| (*entry, albedo))) {
+            let medium = HalfSpace::of(entry, albedo);
+            // The fit of H, and that of the conversion.
+            let exit = mean(|cosine| medium.exit(cosine));
+            assert!((exit - 1.0).abs() < 2e-3, "{medium:?}: {exit}");
+            let entered = mean(|cosine| medium.entry(cosine)) / medium.diffuse_entry();
+            assert!((entered - 1.0).abs() < 2e-3, "{medium:?}: {entered}");
+        }
+    }
+
+    #[test]
+    fn a_profile_is_for_its_own_entry() {
+        for albedo in ALBEDOS {
+            assert!((HalfSpace::of(Entry::Searchlight, albedo).entry(1.0) - 1.0).abs() < 1e-15);
+            assert!((HalfSpace::of(Entry::Diffuse, albedo).diffuse_entry() - 1.0).abs() < 1e-15);
+            // The fit of the conversion from A to α is within 2.9e-4 of α.
+            let searchlight = HalfSpace::of(Entry::Searchlight, albedo);
+            assert!((searchlight.albedo(1.0) - albedo).abs() < 1.5e-3, "{searchlight:?}");
+        }
+    }
+
+    #[test]
+    fn white_is_lamberts_and_grazing_light_returns_more() {
+        for entry in ENTRIES {
+            let white = HalfSpace::of(entry, 1.0);
+            for cosine in [1e-3, 0.1, 0.5, 1.0] {
+                assert!(
+                    (white.entry(cosine) - 1.0).abs() < 1e-12 && (white.exit(cosine) - 1.0).abs() < 1e-12
+                );
+            }
+            for albedo in &ALBEDOS[..7] {
+                let medium = HalfSpace::of(entry, *albedo);
+                let factors = [1e-4, 0.01, 0.1, 0.3, 0.6, 1.0].map(|cosine| medium.entry(cosine));
+                assert!(factors.windows(2).all(|pair| pair[0] > pair[1]), "{medium:?}: {factors:?}");
+            }
+        }
+    }
+}

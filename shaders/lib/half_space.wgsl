@@ -1,0 +1,37 @@
+// uses: profile/constants
+
+// A flat medium without end that scatters isotropically, by the angle at which light enters or leaves: Chandrasekhar's
+// A(μ) = 1 − γ H(μ), γ = √(1 − α), with
+//
+//     1/H(μ) = γ + (1 − γ) u,   u = 1 − μ (p₀ + (p₁ + p₂ μ) ln(1 + 1/μ)),   A(μ) = (1 − γ) u/(γ + (1 − γ) u)
+//
+// the form of Hapke 2002 with coefficients of our own fit. Shares are over 1 − γ, which leaves them finite at A = 0.
+
+/// Least cosine: there ln(1 + 1/μ) is 9, and μ times it less than what half floats hold.
+const LEAST_COSINE: f32 = 1e-4;
+
+/// γ of media with these surface albedos, for light from everywhere or for perpendicular entry:
+/// (1 − A)(1 + c₁A)/(1 + c₂A + c₃A²).
+fn half_space_roots(is_diffuse: bool, surface_albedo: vec3f) -> vec3f {
+    let c = select(SEARCHLIGHT_ALBEDO, DIFFUSE_ALBEDO, is_diffuse);
+    let a = clamp(surface_albedo, vec3f(0.0), vec3f(1.0));
+    return (1.0 - a) * (1.0 + c.x * a) / (1.0 + (c.y + c.z * a) * a);
+}
+
+/// A(μ)/(1 − γ).
+fn relative_half_space_albedo(cosine: f32, root: vec3f) -> vec3f {
+    let mu = max(cosine, LEAST_COSINE);
+    let lost = 1.0 - root;
+    let p0 = lost * (HALF_SPACE_ANGLES.x + HALF_SPACE_SLOPES.x * root);
+    let p1 = lost * (HALF_SPACE_ANGLES.y + HALF_SPACE_SLOPES.y * root) + 1.0;
+    let p2 = lost * (HALF_SPACE_ANGLES.z + HALF_SPACE_SLOPES.z * root);
+    let u = 1.0 - mu * (p0 + (p1 + mu * p2) * log(1.0 + 1.0 / mu));
+    return u / (root + lost * u);
+}
+
+/// Ā/(1 − γ), of light that enters from everywhere alike.
+fn relative_diffuse_albedo(root: vec3f) -> vec3f {
+    let c = DIFFUSE_ALBEDO;
+    let linear = 1.0 - c.x + c.y * root;
+    return 2.0 / (linear + sqrt(linear * linear + 4.0 * (c.x + c.z * root) * (1.0 - root)));
+}

@@ -1,0 +1,43 @@
+// uses: kernel/constants, light/{fresnel, specular_albedo}
+
+// How diffuse light knows of the specular lobe above it: what that sends back does not enter.
+
+/// A surface as the coupling sees it.
+struct SpecularSurface {
+    /// One of the `COUPLING_…` constants.
+    coupling: u32,
+    /// F₀.
+    reflectance_at_normal: f32,
+    roughness: f32,
+}
+
+/// Share of the light that enters at this cosine: 1 − F(μ), or 1 − E(μ).
+fn entering_share(surface: SpecularSurface, cosine: f32) -> f32 {
+    if surface.coupling == COUPLING_NONE {
+        return 1.0;
+    }
+    if surface.coupling == COUPLING_ENTRY {
+        return 1.0 - fresnel_schlick(surface.reflectance_at_normal, cosine);
+    }
+    return 1.0 - specular_albedo(cosine, surface.roughness, surface.reflectance_at_normal);
+}
+
+/// The same of light that comes from everywhere alike.
+fn entering_ambient_share(surface: SpecularSurface) -> f32 {
+    if surface.coupling == COUPLING_NONE {
+        return 1.0;
+    }
+    if surface.coupling == COUPLING_ENTRY {
+        return 1.0 - fresnel_schlick_mean(surface.reflectance_at_normal);
+    }
+    return 1.0 - specular_albedo_mean(surface.roughness, surface.reflectance_at_normal);
+}
+
+/// Radiance that leaves at this cosine over the mean of all directions: (1 − E(μ))/(1 − Ē), Real-Time Rendering 4,
+/// eq. 9.65, which makes the surface reciprocal and white where nothing is absorbed.
+fn leaving_share(surface: SpecularSurface, cosine: f32) -> f32 {
+    if surface.coupling != COUPLING_FULL {
+        return 1.0;
+    }
+    return entering_share(surface, cosine) / entering_ambient_share(surface);
+}
