@@ -37,6 +37,11 @@ pub const SHARED_CONSTANTS: &[SharedConstant] = &[
         values: &half_space::ANGLES[1],
     },
     SharedConstant {
+        name: "HALF_SPACE_BENDS",
+        docs: "The same: coefficients of γ².",
+        values: &half_space::ANGLES[2],
+    },
+    SharedConstant {
         name: "INTERNAL_REFLECTANCE",
         docs: "F_dr from η = 1 on, as coefficients of η⁻², η⁻¹, 1 and η (Jensen et al. 2001, after Groenhuis et al. 1983).",
         values: &dipole::INTERNAL_REFLECTANCE,

@@ -435,7 +435,8 @@ fn angles_are_those_of_the_half_space() {
             check(scene.diffuse(None), &HalfSpace::diffuse_entry, "light from everywhere");
             for light in COSINES {
                 let radiance = scene.diffuse(Some(beside(view, light)));
-                check(radiance, &|medium| light * medium.entry(light), &format!("a light at {light}"));
+                let arriving = |medium: &HalfSpace| light * medium.entry(light) * medium.pairing(light, view);
+                check(radiance, &arriving, &format!("a light at {light}"));
             }
         }
     }

@@ -18,15 +18,19 @@ fn half_space_roots(is_diffuse: bool, surface_albedo: vec3f) -> vec3f {
     return (1.0 - a) * (1.0 + c.x * a) / (1.0 + (c.y + c.z * a) * a);
 }
 
-/// A(μ)/(1 − γ).
-fn relative_half_space_albedo(cosine: f32, root: vec3f) -> vec3f {
+/// u.
+fn half_space_u(cosine: f32, root: vec3f) -> vec3f {
     let mu = max(cosine, LEAST_COSINE);
     let lost = 1.0 - root;
-    let p0 = lost * (HALF_SPACE_ANGLES.x + HALF_SPACE_SLOPES.x * root);
-    let p1 = lost * (HALF_SPACE_ANGLES.y + HALF_SPACE_SLOPES.y * root) + 1.0;
-    let p2 = lost * (HALF_SPACE_ANGLES.z + HALF_SPACE_SLOPES.z * root);
-    let u = 1.0 - mu * (p0 + (p1 + mu * p2) * log(1.0 + 1.0 / mu));
-    return u / (root + lost * u);
+    let p0 = lost * (HALF_SPACE_ANGLES.x + (HALF_SPACE_SLOPES.x + HALF_SPACE_BENDS.x * root) * root);
+    let p1 = lost * (HALF_SPACE_ANGLES.y + (HALF_SPACE_SLOPES.y + HALF_SPACE_BENDS.y * root) * root) + 1.0;
+    let p2 = lost * (HALF_SPACE_ANGLES.z + (HALF_SPACE_SLOPES.z + HALF_SPACE_BENDS.z * root) * root);
+    return 1.0 - mu * (p0 + (p1 + mu * p2) * log(1.0 + 1.0 / mu));
+}
+
+/// A(μ)/(1 − γ) for that u.
+fn relative_half_space_albedo(u: vec3f, root: vec3f) -> vec3f {
+    return u / (root + (1.0 - root) * u);
 }
 
 /// Ā/(1 − γ), of light that enters from everywhere alike.

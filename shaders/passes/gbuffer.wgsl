@@ -107,7 +107,9 @@ fn gbuffer_fragment(interpolated: GBufferInterpolated, @builtin(front_facing) fr
     let coupling = select(COUPLING_FULL, row.surface.coupling, translucent);
     let specular = SpecularSurface(coupling, reflectance, roughness);
     // A sheet has no half-space below it.
-    let medium = medium_angles(select(DIFFUSE_LAMBERT, row.surface.diffuse, translucent && !is_thin), surface_albedo);
+    let diffuse = select(DIFFUSE_LAMBERT, row.surface.diffuse, translucent && !is_thin);
+    let view_cosine = max(dot(normal, towards_camera), LEAST_VIEW_COSINE);
+    let medium = medium_angles(diffuse, surface_albedo, view_cosine);
 
     var irradiance =
         frame.ambient_irradiance * entering_ambient_share(specular) * medium_ambient_entry(medium);
@@ -142,7 +144,6 @@ fn gbuffer_fragment(interpolated: GBufferInterpolated, @builtin(front_facing) fr
 
     var targets: GBufferTargets;
     // The targets hold half floats: a mirror's highlight must end at their largest value, not at infinity.
-    let view_cosine = max(dot(normal, towards_camera), LEAST_VIEW_COSINE);
     targets.irradiance = vec4f(min(irradiance, vec3f(LARGEST_HALF)), leaving_share(specular, view_cosine));
     targets.unscattered = vec4f(min(unscattered, vec3f(LARGEST_HALF)), pack_exit(medium.diffuse, view_cosine));
     targets.surface = vec4f(surface_albedo, select(-1.0, f32(object.material), translucent));
