@@ -53,6 +53,7 @@ mod light;
 mod load_error;
 mod loaded_kernel;
 mod material_table;
+mod mips;
 mod object;
 mod output;
 pub mod pass;

@@ -8,13 +8,15 @@ use crate::bindings::kernel::{BindGroup3, GBufferObject, ObjectTransform};
 use crate::bindings::shadow;
 use crate::extent::Extent;
 use crate::geometry::Geometry;
+use crate::mips::Encoding;
 use crate::target::{Target, TexelsError};
 use crate::wgpu::{self, util::DeviceExt as _};
 
 /// Both passes that draw objects read the transform from one buffer.
 const _: () = assert!(size_of::<ObjectTransform>() == size_of::<shadow::ObjectTransform>());
 
-/// Pixels of a texture, 8 bits each of red, green, blue and alpha, row by row from the top.
+/// Pixels of a texture, 8 bits each of red, green, blue and alpha, row by row from the top. Smaller levels, for surfaces
+/// far away, are made of them.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct TexturePixels<'a> {
@@ -36,10 +38,10 @@ impl<'a> TexturePixels<'a> {
         &self,
         device: &wgpu::Device,
         queue: &wgpu::Queue,
-        format: wgpu::TextureFormat,
+        encoding: Encoding,
         label: &str,
     ) -> Result<Target, TexelsError> {
-        Target::from_texels(device, queue, Extent::new(self.width, self.height), format, label, self.rgba)
+        Target::with_levels(device, queue, Extent::new(self.width, self.height), encoding, label, self.rgba)
     }
 }
 
@@ -127,16 +129,16 @@ impl Object {
         let white = TexturePixels::new(1, 1, &[255; 4]);
         let flat = TexturePixels::new(1, 1, &[128, 128, 255, 255]);
         let colour = surface.surface_albedo.unwrap_or(white);
-        let colour =
-            colour.upload(device, queue, wgpu::TextureFormat::Rgba8UnormSrgb, "Object surface albedo")?;
+        let colour = colour.upload(device, queue, Encoding::Srgb, "Object surface albedo")?;
         let normals = surface.normals.unwrap_or(flat);
-        let normals = normals.upload(device, queue, wgpu::TextureFormat::Rgba8Unorm, "Object normals")?;
+        let normals = normals.upload(device, queue, Encoding::Linear, "Object normals")?;
         let sampler = device.create_sampler(&wgpu::SamplerDescriptor {
             label: Some("Object sampler"),
             address_mode_u: wgpu::AddressMode::Repeat,
             address_mode_v: wgpu::AddressMode::Repeat,
             mag_filter: wgpu::FilterMode::Linear,
             min_filter: wgpu::FilterMode::Linear,
+            mipmap_filter: wgpu::MipmapFilterMode::Linear,
             ..Default::default()
         });
         let overrides = surface.surface_albedo.is_some() || surface.surface_albedo_factor != [1.0; 3];

@@ -1,6 +1,7 @@
 //! Textures that passes render into.
 
 use crate::extent::{Extent, SizeError};
+use crate::mips::{self, Encoding};
 use crate::wgpu::{self, util::DeviceExt as _};
 
 /// A texture and its view.
@@ -78,7 +79,7 @@ impl Target {
         label: &str,
         texel: &[u8],
     ) -> Self {
-        Self::filled_with(device, queue, Extent::new(1, 1), format, label, texel)
+        Self::filled_with(device, queue, Extent::new(1, 1), format, label, 1, texel)
     }
 
     /// A 2-D texture of an uncompressed colour format that holds `texels`, rows from the top without padding; to be
@@ -94,14 +95,26 @@ impl Target {
         label: &str,
         texels: &[u8],
     ) -> Result<Self, TexelsError> {
-        size.check(device)?;
-        let Extent { width, height } = size;
-        let texel = u64::from(format.block_copy_size(None).unwrap_or(0));
-        let (expected, found) = (texel * u64::from(width) * u64::from(height), texels.len() as u64);
-        if expected != found {
-            return Err(TexelsError::Length { width, height, expected, found });
-        }
-        Ok(Self::filled_with(device, queue, size, format, label, texels))
+        check(device, size, format, texels)?;
+        Ok(Self::filled_with(device, queue, size, format, label, 1, texels))
+    }
+
+    /// The same of four bytes per pixel, with all smaller levels.
+    pub(crate) fn with_levels(
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        size: Extent,
+        encoding: Encoding,
+        label: &str,
+        texels: &[u8],
+    ) -> Result<Self, TexelsError> {
+        let format = match encoding {
+            Encoding::Srgb => wgpu::TextureFormat::Rgba8UnormSrgb,
+            Encoding::Linear => wgpu::TextureFormat::Rgba8Unorm,
+        };
+        check(device, size, format, texels)?;
+        let levels = mips::levels(size, texels, encoding);
+        Ok(Self::filled_with(device, queue, size, format, label, mips::level_count(size), &levels))
     }
 
     fn filled_with(
@@ -110,9 +123,13 @@ impl Target {
         size: Extent,
         format: wgpu::TextureFormat,
         label: &str,
+        mip_level_count: u32,
         texels: &[u8],
     ) -> Self {
-        let descriptor = descriptor(size, format, wgpu::TextureUsages::COPY_DST, label);
+        let descriptor = wgpu::TextureDescriptor {
+            mip_level_count,
+            ..descriptor(size, format, wgpu::TextureUsages::COPY_DST, label)
+        };
         let order = wgpu::util::TextureDataOrder::LayerMajor;
         Self::of(device.create_texture_with_data(queue, &descriptor, order, texels), label)
     }
@@ -122,6 +139,20 @@ impl Target {
             texture.create_view(&wgpu::TextureViewDescriptor { label: Some(label), ..Default::default() });
         Self { texture, view }
     }
+}
+
+/// Whether the device has textures of this size, and so many bytes fill one.
+fn check(
+    device: &wgpu::Device,
+    size: Extent,
+    format: wgpu::TextureFormat,
+    texels: &[u8],
+) -> Result<(), TexelsError> {
+    size.check(device)?;
+    let Extent { width, height } = size;
+    let texel = u64::from(format.block_copy_size(None).unwrap_or(0));
+    let (expected, found) = (texel * u64::from(width) * u64::from(height), texels.len() as u64);
+    if expected == found { Ok(()) } else { Err(TexelsError::Length { width, height, expected, found }) }
 }
 
 /// One 2-D level that can be read in shaders and copied from, and filled as `filled` says.

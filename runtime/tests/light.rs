@@ -11,7 +11,7 @@ use subsurface_profile::single_scattering_albedo::Entry;
 use subsurface_profile::{Channel, HalfSpace, Medium, Model, Slab};
 use subsurface_runtime::{
     Bounds, Camera, CompositeSettings, DirectionalLight, Extent, Frame, Geometry, LoadedKernel, Object,
-    Renderer, RendererDescriptor, SurfaceDescriptor, Target, Vertex, wgpu,
+    Renderer, RendererDescriptor, SurfaceDescriptor, Target, TexturePixels, Vertex, wgpu,
 };
 
 /// Odd: a pixel is in the very middle.
@@ -71,7 +71,8 @@ fn tilted(cosine: f64) -> Mesh {
     let corner = |x: f32, y: f32| Vertex {
         position: [0.05 * x * cos, 0.05 * y, -0.05 * x * sin],
         normal: [sin, 0.0, cos],
-        texture_coordinate: [0.0; 2],
+        // Many times over: a pixel holds many texels.
+        texture_coordinate: [40.0 * x, 40.0 * y],
     };
     (vec![corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)], vec![0, 1, 2, 0, 2, 3])
 }
@@ -440,4 +441,26 @@ fn angles_are_those_of_the_half_space() {
             }
         }
     }
+}
+
+#[test]
+fn a_texture_far_away_is_its_mean() {
+    let gpu = Gpu::open();
+    // White and black in turn, in a size that no power of two is.
+    const SIDE: u32 = 255;
+    let texels: Vec<u8> =
+        (0..SIDE * SIDE).flat_map(|at| if at % 2 == 0 { [255; 4] } else { [0, 0, 0, 255] }).collect();
+    let mut scene = Scene::new(&gpu, &medium(""), &[]);
+    let (vertices, indices) = quad();
+    let geometry = Geometry::new(&gpu.device, &vertices, &indices);
+    let surface = SurfaceDescriptor {
+        material: scene.kernel.material_number("skin"),
+        surface_albedo: Some(TexturePixels::new(SIDE, SIDE, &texels)),
+        ..Default::default()
+    };
+    scene.objects = vec![Object::new(&gpu.device, &gpu.queue, geometry, &surface).expect("four bytes each")];
+    scene.middle([0.0, 0.0, 1.0], Bounds::new([0.0; 3], 0.1));
+    let albedo = scene.texel(&scene.renderer.targets().expect("resized").surface);
+    // Half of the light, in codes of eight bits on eight levels.
+    assert!(albedo[..3].iter().all(|albedo| (albedo - 0.5).abs() < 0.02), "{albedo:?}");
 }
