@@ -74,7 +74,8 @@ pub enum Coupling {
     /// What a mirror of the same reflectance sends back does not enter: (1 - F(μ)), Real-Time Rendering 4, eq. 9.62.
     Entry,
     /// What the lobe itself sends back does not enter, and as much is lost where light leaves: (1 - E(μ_l))(1 - E(μ_v))
-    /// over (1 - Ē), Real-Time Rendering 4, eq. 9.65. Conserves energy at every roughness, and is reciprocal.
+    /// over (1 - Ē), Real-Time Rendering 4, eq. 9.65. Reciprocal; conserves energy at every roughness under
+    /// [`DiffuseLobe::Lambert`], and within 1 % under the other for reflectances of dielectrics.
     #[default]
     Full,
 }

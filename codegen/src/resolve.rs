@@ -29,7 +29,7 @@ use chain::{check_aliases, profile_names};
 const DEFAULT_REFLECTANCE_AT_NORMAL: f64 = 0.028;
 /// Perceptual roughness when a material gives none.
 const DEFAULT_ROUGHNESS: f64 = 0.40;
-/// Transmission strength when a material gives none: the profile's own transmittance.
+/// Transmission strength when a material gives none: what its `transmittance` says.
 const DEFAULT_TRANSMISSION_STRENGTH: f64 = 1.0;
 /// Materials named in the labels of an error in a profile that they use.
 const MOST_USERS: usize = 3;

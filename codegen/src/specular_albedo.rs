@@ -10,10 +10,10 @@ use subsurface_kernel::constants::{LEAST_ROUGHNESS, LEAST_VIEW_COSINE};
 use subsurface_quality::gather::curve::{Knots, STEPS, fraction};
 
 /// Roughnesses that have a row of their own, from 0 to 1.
-pub(crate) const ROUGHNESSES: usize = 16;
+pub(crate) const ROUGHNESSES: usize = 32;
 
-/// Points per axis of the integral. Its integrand is smooth but for a bend at the horizon: sums are within 4e-4.
-const POINTS: usize = 24;
+/// Points per axis of the integral. Its integrand is smooth but for a bend at the horizon: sums are within 3e-4.
+const POINTS: usize = 32;
 
 /// a and b.
 type Shares = [f64; 2];

@@ -11,7 +11,8 @@ pub const TRANSLUCENT_STENCIL: u32 = 1;
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct GBuffer {
-    /// Diffuse irradiance, linear RGB; alpha is the share of it that the highlight's lobe lets out towards the camera.
+    /// Diffuse irradiance, linear RGB, as the camera's angle has it; alpha is what it is multiplied by where it leaves
+    /// towards the camera: about 1, and 1.4 for a mirror at a grazing angle.
     pub irradiance: Target,
     /// Specular reflection + transmission: radiance that is not scattered; alpha is 0 behind all geometry, and on it 1 or
     /// the number of a diffuse lobe with the cosine at which light leaves (`pack_exit` of the shaders).

@@ -3,82 +3,95 @@
 // Diffuse light by the angles at which it enters and leaves a medium: a profile is for one way of entry, and light that
 // enters at a slant returns more.
 
-/// What the angles of a pixel share, of its material's `diffuse`, surface albedo and the cosine at which light leaves.
+/// What the angles of a pixel share.
 struct MediumAngles {
     /// One of the `DIFFUSE_…` constants.
     diffuse: u32,
+    /// 1/η²: cosines are those below a boundary of that index.
+    inverse_square: f32,
     /// γ per channel.
     root: vec3f,
-    /// Cosine at which light leaves, and u there.
+    /// The cosine at which light leaves, below the boundary.
     leaving: f32,
-    leaving_u: vec3f,
+    /// Of light from everywhere, over what the profile is normalized by.
+    ambient_entry: vec3f,
+    /// Without a boundary, what `medium_entry` divides by the sum of cosines and more; below one, what the albedos by
+    /// angle are multiplied by for their mean: channels differ by some percent there, and all have the mean.
+    numerator: vec3f,
+    /// Radiance that leaves over Lambert's below a boundary.
+    exit_share: f32,
 }
 
-/// The angles of a medium whose light leaves at a cosine.
-fn medium_angles(diffuse: u32, surface_albedo: vec3f, leaving: f32) -> MediumAngles {
+/// 1/η² of the boundary whose reflectance at normal incidence is F₀ = ((η − 1)/(η + 1))².
+fn inverse_square_index(reflectance_at_normal: f32) -> f32 {
+    let root = sqrt(clamp(reflectance_at_normal, 0.0, 1.0));
+    let inverse = (1.0 - root) / (1.0 + root);
+    return inverse * inverse;
+}
+
+/// The angles of a medium whose light leaves at a cosine, through a boundary that reflects F₀.
+fn medium_angles(diffuse: u32, surface_albedo: vec3f, reflectance_at_normal: f32, leaving: f32) -> MediumAngles {
+    let inverse_square = inverse_square_index(reflectance_at_normal);
     let root = half_space_roots(diffuse == DIFFUSE_EVERYWHERE, surface_albedo);
-    return MediumAngles(diffuse, root, leaving, half_space_u(leaving, root));
+    let below = refracted_cosine(leaving, inverse_square);
+    let at_normal = relative_half_space_albedo(half_space_u(1.0, root), root);
+    let of_profile = select(relative_diffuse_albedo(root), at_normal, diffuse == DIFFUSE_SEARCHLIGHT);
+    let everywhere = relative_diffuse_albedo_below(root, inverse_square);
+    let u = half_space_u(below, root);
+    let is_matched = inverse_square >= 1.0;
+    let pairing = (1.0 + root) * everywhere / (4.0 * u);
+    let numerator = select(1.0 / (3.0 * everywhere), pairing / of_profile, is_matched);
+    let exit = dot(relative_half_space_albedo(u, root), numerator);
+    let exit_share = select(exit, 1.0, is_matched || diffuse == DIFFUSE_LAMBERT);
+    return MediumAngles(diffuse, inverse_square, root, below, everywhere / of_profile, numerator, exit_share);
 }
 
-/// Albedo/(1 − γ) that the profile is normalized by.
-fn relative_albedo_of_profile(medium: MediumAngles) -> vec3f {
-    if medium.diffuse == DIFFUSE_SEARCHLIGHT {
-        return relative_half_space_albedo(half_space_u(1.0, medium.root), medium.root);
-    }
-    return relative_diffuse_albedo(medium.root);
-}
-
-/// Light that enters at this cosine and leaves at the medium's, over what the profile and `medium_exit` say:
-/// A(μ)/A(1), or A(μ)/Ā, and of pairs of angles what lies in no product of the two,
+/// Light that enters at this cosine and leaves at the medium's, over what the profile and `exit_of` say: A(μ)/A(1), or
+/// A(μ)/Ā. Without a boundary, of pairs of angles also what lies in no product of the two,
 ///
 ///     α H(μ) H(μᵥ)/(4π (μ + μᵥ)) over A(μ) A(μᵥ)/(π Ā)
 ///
-/// which is light that was scattered once: Chandrasekhar 1960, "Radiative Transfer".
+/// of which light that was scattered once has the most (Chandrasekhar 1960, "Radiative Transfer"). It stands in the
+/// irradiance, so that this depends on the viewer. Below a boundary cosines are close to 1, and pairs alike.
 fn medium_entry(medium: MediumAngles, cosine: f32) -> vec3f {
     if medium.diffuse == DIFFUSE_LAMBERT {
         return vec3f(1.0);
     }
-    let u = half_space_u(cosine, medium.root);
-    let entry = relative_half_space_albedo(u, medium.root) / relative_albedo_of_profile(medium);
-    let spread = 4.0 * (max(cosine, LEAST_COSINE) + medium.leaving) * u * medium.leaving_u;
-    return entry * (1.0 + medium.root) * relative_diffuse_albedo(medium.root) / spread;
+    let below = refracted_cosine(cosine, medium.inverse_square);
+    let u = half_space_u(below, medium.root);
+    let per_u = 1.0 / (medium.root + (1.0 - medium.root) * u);
+    if medium.inverse_square >= 1.0 {
+        return medium.numerator * per_u / (max(below, LEAST_COSINE) + medium.leaving);
+    }
+    return medium.ambient_entry * dot(u * per_u, medium.numerator);
 }
 
 /// The same of light that enters from everywhere alike.
 fn medium_ambient_entry(medium: MediumAngles) -> vec3f {
-    if medium.diffuse == DIFFUSE_LAMBERT {
-        return vec3f(1.0);
-    }
-    return relative_diffuse_albedo(medium.root) / relative_albedo_of_profile(medium);
-}
-
-/// Radiance that leaves over Lambert's: A(μᵥ)/Ā.
-fn medium_exit(medium: MediumAngles) -> vec3f {
-    if medium.diffuse == DIFFUSE_LAMBERT {
-        return vec3f(1.0);
-    }
-    return relative_half_space_albedo(medium.leaving_u, medium.root) / relative_diffuse_albedo(medium.root);
+    return select(medium.ambient_entry, vec3f(1.0), medium.diffuse == DIFFUSE_LAMBERT);
 }
 
 // A pixel's `diffuse` and the cosine at which its light leaves, as one number that a half float holds: 1 for Lambert's,
-// else the number of the lobe and the cosine.
+// else the number of the lobe and the cosine. What leaves through a boundary is Lambert's times `exit_share`.
 
 /// Least cosine that the number holds.
 const LEAST_EXIT_COSINE: f32 = 1.0 / 256.0;
 
-/// The number of a lobe and a cosine.
-fn pack_exit(diffuse: u32, cosine: f32) -> f32 {
-    if diffuse == DIFFUSE_LAMBERT {
+/// The number of a medium.
+fn pack_exit(medium: MediumAngles) -> f32 {
+    if medium.diffuse == DIFFUSE_LAMBERT || medium.inverse_square < 1.0 {
         return 1.0;
     }
-    return f32(diffuse) + clamp(cosine, LEAST_EXIT_COSINE, 1.0);
+    return f32(medium.diffuse) + clamp(medium.leaving, LEAST_EXIT_COSINE, 1.0);
 }
 
-/// Radiance over Lambert's of a pixel with that number.
+/// Radiance over Lambert's of a pixel with that number: A(μᵥ)/Ā.
 fn exit_of(packed: f32, surface_albedo: vec3f) -> vec3f {
     if packed <= 1.0 {
         return vec3f(1.0);
     }
     let diffuse = u32(ceil(packed)) - 1u;
-    return medium_exit(medium_angles(diffuse, surface_albedo, packed - f32(diffuse)));
+    let root = half_space_roots(diffuse == DIFFUSE_EVERYWHERE, surface_albedo);
+    let u = half_space_u(packed - f32(diffuse), root);
+    return relative_half_space_albedo(u, root) / relative_diffuse_albedo(root);
 }

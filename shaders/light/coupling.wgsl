@@ -33,11 +33,9 @@ fn entering_ambient_share(surface: SpecularSurface) -> f32 {
     return 1.0 - specular_albedo_mean(surface.roughness, surface.reflectance_at_normal);
 }
 
-/// Radiance that leaves at this cosine over the mean of all directions: (1 − E(μ))/(1 − Ē), Real-Time Rendering 4,
-/// eq. 9.65, which makes the surface reciprocal and white where nothing is absorbed.
-fn leaving_share(surface: SpecularSurface, cosine: f32) -> f32 {
-    if surface.coupling != COUPLING_FULL {
-        return 1.0;
-    }
-    return entering_share(surface, cosine) / entering_ambient_share(surface);
+/// Radiance that leaves where the lobe sends `specular` of the light back, over the mean of all directions, which
+/// enters by `ambient_share`: (1 − E(μ))/(1 − Ē), Real-Time Rendering 4, eq. 9.65. It makes the surface reciprocal, and
+/// white where nothing is absorbed.
+fn leaving_share(surface: SpecularSurface, specular: f32, ambient_share: f32) -> f32 {
+    return select(1.0, (1.0 - specular) / max(ambient_share, 1e-4), surface.coupling == COUPLING_FULL);
 }

@@ -23,7 +23,10 @@ fn specular_albedo(cosine: f32, roughness: f32, reflectance_at_normal: f32) -> f
 
 /// Ē = 2 ∫ E(μ) μ dμ: the same of light that comes from everywhere alike.
 fn specular_albedo_mean(roughness: f32, reflectance_at_normal: f32) -> f32 {
-    let steps = clamp(roughness, 0.0, 1.0) * f32(CURVE_STEPS);
-    return reflectance_at_normal * specular_curve(SPECULAR_MEAN_ROW, 0.0, steps)
-        + specular_curve(SPECULAR_MEAN_ROW, 1.0, steps);
+    let place = clamp(roughness, 0.0, 1.0) * f32(CURVE_STEPS);
+    let step = min(floor(place), f32(CURVE_STEPS) - 1.0);
+    // Both means in one texel: a row and the next.
+    let texel = curve_texel(SPECULAR_MEAN_ROW, i32(step));
+    let means = texel.xz + texel.yw * (place - step);
+    return reflectance_at_normal * means.x + means.y;
 }

@@ -1,4 +1,4 @@
-// uses: gather/input, kernel/constants, lib/{angle, medium_angles, numeric_limits, object_transform, slab}, light/{coupling, directional_light, normal_map, shadow, specular, transmission}, the material set
+// uses: gather/input, kernel/constants, lib/{angle, medium_angles, numeric_limits, object_transform, slab}, light/{coupling, directional_light, normal_map, shadow, specular, specular_albedo, transmission}, the material set
 
 /// Camera and lights of one frame.
 struct GBufferFrame {
@@ -59,7 +59,7 @@ struct GBufferInterpolated {
 
 /// The three colour targets.
 struct GBufferTargets {
-    /// Diffuse irradiance; alpha is the share of it that the specular lobe lets out towards the camera.
+    /// Diffuse irradiance; alpha is what it is multiplied by where it leaves towards the camera, about 1.
     @location(0) irradiance: vec4f,
     /// Specular reflection + transmission: radiance that the subsurface pass leaves alone; alpha: see `pack_exit`.
     @location(1) unscattered: vec4f,
@@ -97,7 +97,7 @@ fn gbuffer_fragment(interpolated: GBufferInterpolated, @builtin(front_facing) fr
     let row = material_table[select(0, object.material, translucent)];
     let textured = texel.rgb * object.surface_albedo_factor;
     let override_albedo = select(1.0, object.surface_albedo_override, translucent);
-    let surface_albedo = mix(row.surface.surface_albedo, textured, override_albedo);
+    let surface_albedo = clamp(mix(row.surface.surface_albedo, textured, override_albedo), vec3f(0.0), vec3f(1.0));
     let reflectance = select(object.opaque_reflectance_at_normal, row.surface.reflectance_at_normal, translucent);
     let roughness = select(object.opaque_roughness, row.surface.roughness, translucent);
     let profiles = material_profiles(row, surface_albedo);
@@ -108,49 +108,58 @@ fn gbuffer_fragment(interpolated: GBufferInterpolated, @builtin(front_facing) fr
     let specular = SpecularSurface(coupling, reflectance, roughness);
     // A sheet has no half-space below it.
     let diffuse = select(DIFFUSE_LAMBERT, row.surface.diffuse, translucent && !is_thin);
-    let view_cosine = max(dot(normal, towards_camera), LEAST_VIEW_COSINE);
-    let medium = medium_angles(diffuse, surface_albedo, view_cosine);
+    let view_cosine = max(dot(normal, towards_camera), LEAST_EXIT_COSINE);
+    let medium = medium_angles(diffuse, surface_albedo, reflectance, view_cosine);
+    let view_albedo = specular_albedo(view_cosine, roughness, reflectance);
+    let ambient_share = entering_ambient_share(specular);
+    let leaving = leaving_share(specular, view_albedo, ambient_share);
+    let sheet_length = row.surface.slab_mean_free_path_mm;
+    let sheet = slab_transmittance(surface_albedo, sheet_length, row.surface.thin_thickness_mm);
 
-    var irradiance =
-        frame.ambient_irradiance * entering_ambient_share(specular) * medium_ambient_entry(medium);
-    var unscattered = vec3f(0.0);
+    let ambient = frame.ambient_irradiance * ambient_share;
+    var irradiance = ambient * medium_ambient_entry(medium);
+    var unscattered = frame.ambient_irradiance / PI * view_albedo;
+    // Irradiance from behind, times what comes through.
+    var through = select(vec3f(0.0), ambient * sheet, is_thin);
     for (var i = 0u; i < min(frame.light_count, LIGHT_CAPACITY); i += 1u) {
         let light = frame.lights[i];
-        let lifted = interpolated.world_position + light.shadow_normal_offset * smooth_normal;
+        let true_cosine = dot(smooth_normal, light.towards_light);
+        let is_behind = true_cosine < 0.0;
+        // A sheet is seen from the light on either side.
+        let lift = select(1.0, -1.0, is_thin && is_behind) * light.shadow_normal_offset;
+        let lifted = interpolated.world_position + lift * smooth_normal;
         let coordinate = (light.shadow_from_world * vec4f(lifted, 1.0)).xyz;
         let visibility = shadow_visibility(shadow_maps, shadow_comparison, coordinate, i, light.shadow_filter_radius);
         // A bent normal must not light a point whose true surface faces away: fade out over the last 7 degrees, where
         // bent and true normals may disagree. Without a normal map they never do.
-        let true_cosine = dot(smooth_normal, light.towards_light);
         let facing = select(1.0, clamp(true_cosine * 8.0, 0.0, 1.0), object.normal_scale > 0.0);
         let cosine = max(dot(normal, light.towards_light), 0.0);
         let arriving = light.irradiance * visibility * facing;
-        irradiance += arriving * (cosine * entering_share(specular, cosine)) * medium_entry(medium, cosine);
+        let facing_away = max(-true_cosine, 0.0);
+        let entering = entering_share(specular, select(cosine, facing_away, is_behind));
+        irradiance += arriving * (cosine * entering) * medium_entry(medium, cosine);
         unscattered +=
             arriving * specular_reflection(normal, light.towards_light, towards_camera, reflectance, roughness);
+        let behind = light.irradiance * (facing_away * entering);
         if is_thin {
-            unscattered += transmission
-                * sheet_irradiance(light, i, interpolated.world_position, smooth_normal, specular)
-                * slab_transmittance(surface_albedo, row.surface.slab_mean_free_path_mm, row.surface.thin_thickness_mm)
-                / PI;
-        } else if transmission > 0.0 {
-            let facing_away = max(-true_cosine, 0.0);
-            let entering = light.irradiance * (facing_away * entering_share(specular, facing_away));
+            through += visibility * behind * sheet;
+        } else if transmission > 0.0 && is_behind {
             let position = interpolated.world_position;
-            let through = transmitted_share(light, i, position, smooth_normal, row.surface, profiles, surface_albedo);
-            unscattered += transmission * entering * through / PI;
+            through +=
+                behind * transmitted_share(light, i, position, smooth_normal, row.surface, profiles, surface_albedo);
         }
     }
+    unscattered += transmission * leaving * through / PI;
 
     var targets: GBufferTargets;
     // The targets hold half floats: a mirror's highlight must end at their largest value, not at infinity.
-    targets.irradiance = vec4f(min(irradiance, vec3f(LARGEST_HALF)), leaving_share(specular, view_cosine));
-    targets.unscattered = vec4f(min(unscattered, vec3f(LARGEST_HALF)), pack_exit(medium.diffuse, view_cosine));
+    targets.irradiance = vec4f(min(irradiance, vec3f(LARGEST_HALF)), leaving * medium.exit_share);
+    targets.unscattered = vec4f(min(unscattered, vec3f(LARGEST_HALF)), pack_exit(medium));
     targets.surface = vec4f(surface_albedo, select(-1.0, f32(object.material), translucent));
     if is_thin {
         // A sheet sends back what a slab does, from where it entered.
-        let length = row.surface.slab_mean_free_path_mm;
-        targets.surface = vec4f(slab_reflectance(surface_albedo, length, row.surface.thin_thickness_mm), -1.0);
+        let sent_back = slab_reflectance(surface_albedo, sheet_length, row.surface.thin_thickness_mm);
+        targets.surface = vec4f(sent_back, -1.0);
     }
     return targets;
 }

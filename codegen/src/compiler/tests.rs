@@ -87,7 +87,7 @@ fn equal_gaussian_sums_share_their_terms() {
     let skin = || material("\"gaussian_skin\"");
     let compilation = compile(&[("a.ron", skin()), ("b.ron", skin())]);
     // A row for each channel, and one that the six terms begin; then those of the lobe.
-    assert_eq!(compilation.parts.curve_size(), [64, 4 + 34]);
+    assert_eq!(compilation.parts.curve_size(), [64, 4 + 66]);
     let term = |index: usize| -> Vec<f32> {
         let texel = &compilation.parts.profile_curves()[16 * (3 * 64 + index)..][..16];
         texel.chunks(4).map(|bytes| f32::from_le_bytes(bytes.try_into().expect("four bytes"))).collect()
@@ -188,7 +188,7 @@ fn every_kernel_compiles_with_every_profile() {
             let model = subsurface_profile::Model::published(stem).expect("its own list");
             if model.dependence().on_channel() { 3 } else { 16 }
         });
-        let rows = if has_edges { 3 } else { 1 } * (published.iter().sum::<u32>() + 16 + 48) + 1 + 34;
+        let rows = if has_edges { 3 } else { 1 } * (published.iter().sum::<u32>() + 16 + 48) + 1 + 66;
         assert_eq!(compilation.parts.curve_size(), [64, rows], "{kernel}");
     }
 }

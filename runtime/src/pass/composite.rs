@@ -47,7 +47,7 @@ impl Default for CompositeDescriptor<'_> {
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct CompositeInputs<'a> {
-    /// Diffused irradiance, linear RGB; alpha is the share of it that is let out, 1 for all.
+    /// Diffused irradiance, linear RGB; alpha is what it is multiplied by where it leaves, 1 for Lambert's.
     pub diffused: &'a wgpu::TextureView,
     /// Specular reflection + transmission; alpha is 0 where the background shows, and on geometry 1 or what
     /// [`GBuffer::unscattered`](crate::GBuffer::unscattered) says.

@@ -54,6 +54,22 @@ fn compute_and_fragment_give_the_same_picture() {
 }
 
 #[test]
+fn alpha_is_handed_through_by_every_kernel() {
+    for kernel in KERNELS {
+        let description = Description::pair(kernel);
+        let mut buffers = scene([25, 21], 0, 1);
+        for (place, texel) in (0..).zip(&mut buffers.irradiance) {
+            texel[3] = 0.25 + noise(place, place / 7, 8);
+        }
+        for path in PATHS {
+            let picture = Diffuser::new(&description, path).diffuse(&view(), &buffers);
+            let alphas = picture.iter().zip(&buffers.irradiance);
+            assert!(alphas.into_iter().all(|(drawn, before)| drawn[3] == before[3]), "{kernel}, {path:?}");
+        }
+    }
+}
+
+#[test]
 fn light_beyond_the_limit_of_packed_pixels_counts_alike_on_both_paths() {
     // One pixel of each square of 4×4, far above 4.29e9: the mean of what is packed, or what is packed of the mean?
     let is_bright = |x: u32, y: u32| x % 4 == 1 && y % 4 == 2;
