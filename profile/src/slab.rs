@@ -7,7 +7,7 @@ pub(crate) const STRENGTH: [f64; 3] = [-0.1503, 0.966, 1.1191];
 
 /// A slab of a scattering medium, index-matched, light falling on one face.
 ///
-/// Two fluxes, after Kubelka and Munk 1931, "Ein Beitrag zur Optik der Farbanstriche": one travels inwards, one back.
+/// Two fluxes, after Kubelka and Munk 1931, "An Article on Optics of Paint Layers": one travels inwards, one back.
 /// In a thickness t that counts τ = t/ℓ mean free paths, with A the surface albedo of a slab without end,
 ///
 /// y = (1 − A²) k τ, B = k τ (1 − e^(−y))/y, T = e^(−y/2)/(1 + A² B), R = A B/(1 + A² B).

@@ -5,7 +5,7 @@ use subsurface_profile::single_scattering_albedo::Entry;
 use crate::diagnostics::Diagnostic;
 use crate::material::DiffuseLobe;
 use crate::schema::body::Body;
-use crate::schema::choice::choice;
+use crate::schema::choice::{choice, unknown_word};
 use crate::schema::decoder::Decoder;
 use crate::source::Spanned;
 use crate::syntax::{Node, Shape};
@@ -36,6 +36,12 @@ pub(super) fn decode_diffuse(decoder: &mut Decoder, node: &Node<'_>) -> Option<S
             return None;
         }
         return Some(Spanned::new(DiffuseGiven::Chandrasekhar(entry.value().copied()), node.span()));
+    }
+    if let Some((name, _)) = Body::of(node)
+        && !DiffuseLobe::WORDS.contains(&name.text)
+    {
+        unknown_word(decoder, &name, "diffuse", &DiffuseLobe::WORDS);
+        return None;
     }
     let word = choice(decoder, node, "diffuse", &DiffuseLobe::WORDS)?;
     let given =
