@@ -75,7 +75,7 @@ pub enum Coupling {
     Entry,
     /// What the lobe itself sends back does not enter, and as much is lost where light leaves: (1 - E(μ_l))(1 - E(μ_v))
     /// over (1 - Ē), Real-Time Rendering 4, eq. 9.65. Reciprocal; conserves energy at every roughness under
-    /// [`DiffuseLobe::Lambert`], and within 1 % under the other for reflectances of dielectrics.
+    /// [`DiffuseLobe::Lambert`], and nearly under the other.
     #[default]
     Full,
 }

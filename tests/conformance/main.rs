@@ -17,6 +17,7 @@ mod cb15_figure_6;
 mod comparison;
 mod default_profile;
 mod distance;
+mod half_space;
 mod j01;
 mod l23;
 mod l23_refit;
