@@ -1,11 +1,13 @@
 //! The data in `materials/`: it loads without a word, and its numbers are those of their sources.
 #![allow(clippy::unwrap_used, reason = "a test may fail by panicking")]
 
+use std::ops::ControlFlow;
 use std::path::Path;
 
 use subsurface_codegen::{MaterialSet, load_directory, load_memory, load_profile_file};
 use subsurface_profile::Model;
-use subsurface_profile::single_scattering_albedo::{Entry, to_surface_albedo};
+use subsurface_reference::Entry::Searchlight;
+use subsurface_reference::{Goal, HalfSpace, Run};
 
 fn presets() -> MaterialSet {
     let loaded = load_directory(Path::new("materials"));
@@ -46,29 +48,37 @@ fn every_published_profile_is_spelled_out_as_data() {
     }
 }
 
-/// Reduced scattering and absorption per mm, red, green and blue (Jensen et al. 2001, figure 5).
-const JENSEN_2001: [(&str, [f64; 3], [f64; 3]); 7] = [
-    ("apple", [2.29, 2.39, 1.97], [0.0030, 0.0034, 0.046]),
-    ("ketchup", [0.18, 0.07, 0.03], [0.061, 0.97, 1.45]),
-    ("marble", [2.19, 2.62, 3.00], [0.0021, 0.0041, 0.0071]),
-    ("potato", [0.68, 0.70, 0.55], [0.0024, 0.0090, 0.12]),
-    ("skimmilk", [0.70, 1.22, 1.90], [0.0014, 0.0025, 0.0142]),
-    ("skin_medium", [1.09, 1.59, 1.79], [0.013, 0.070, 0.145]),
-    ("wholemilk", [2.55, 3.21, 3.77], [0.0011, 0.0024, 0.014]),
+/// Refractive index, reduced scattering and absorption per mm, red, green and blue (Jensen et al. 2001, figure 5).
+const JENSEN_2001: [(&str, f64, [f64; 3], [f64; 3]); 7] = [
+    ("apple", 1.3, [2.29, 2.39, 1.97], [0.0030, 0.0034, 0.046]),
+    ("ketchup", 1.3, [0.18, 0.07, 0.03], [0.061, 0.97, 1.45]),
+    ("marble", 1.5, [2.19, 2.62, 3.00], [0.0021, 0.0041, 0.0071]),
+    ("potato", 1.3, [0.68, 0.70, 0.55], [0.0024, 0.0090, 0.12]),
+    ("skimmilk", 1.3, [0.70, 1.22, 1.90], [0.0014, 0.0025, 0.0142]),
+    ("skin_medium", 1.3, [1.09, 1.59, 1.79], [0.013, 0.070, 0.145]),
+    ("wholemilk", 1.3, [2.55, 3.21, 3.77], [0.0011, 0.0024, 0.014]),
 ];
 
 #[test]
-fn measured_materials_have_the_lengths_and_surface_albedos_of_their_source() {
+fn measured_materials_reflect_what_walks_do_at_their_index() {
     let presets = presets();
-    for (name, scattering, absorption) in JENSEN_2001 {
-        let material = presets.get(name).unwrap();
-        for channel in 0..3 {
-            let extinction = scattering[channel] + absorption[channel];
-            let surface_albedo = to_surface_albedo(Entry::Searchlight, scattering[channel] / extinction);
-            // Written with four significant digits, so half a unit of the fourth: at most 5e-4 relative.
-            let is_near = |a: f64, b: f64| (a - b).abs() <= 5e-4 * b;
-            assert!(is_near(material.mean_free_path_mm[channel], 1.0 / extinction), "{name} {channel}");
-            assert!(is_near(material.surface_albedo[channel], surface_albedo), "{name} {channel}");
+    for index in [1.3, 1.5] {
+        let half_space = HalfSpace::new(Searchlight, 0.0, index).unwrap();
+        let mut run = Run::new(half_space, 13);
+        run.simulate(&Goal::photons(262_144).unwrap(), &mut |_| ControlFlow::Continue(()));
+        for (name, _, scattering, absorption) in JENSEN_2001.into_iter().filter(|row| row.1 == index) {
+            let material = presets.get(name).unwrap();
+            assert_eq!(material.refractive_index, Some(index), "{name}");
+            let reflectance = ((index - 1.0) / (index + 1.0)).powi(2);
+            assert!((material.reflectance_at_normal - reflectance).abs() < 1e-12, "{name}");
+            for channel in 0..3 {
+                let extinction = scattering[channel] + absorption[channel];
+                assert!((material.mean_free_path_mm[channel] * extinction - 1.0).abs() < 1e-12, "{name}");
+                let total = run.surface_albedo(scattering[channel] / extinction).unwrap().mean;
+                let found = material.surface_albedo[channel];
+                // Noise of so many walks is 0.001, and the fit's own error less.
+                assert!((found - total).abs() < 0.004, "{name} {channel}: {found}, walks say {total}");
+            }
         }
     }
 }

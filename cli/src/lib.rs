@@ -15,6 +15,7 @@ pub mod draw;
 pub mod failure;
 #[cfg(feature = "analysis")]
 pub mod kernel_bench;
+pub mod mitsuba;
 pub mod picture;
 #[cfg(feature = "analysis")]
 pub mod plot;

@@ -11,7 +11,7 @@ fn stderr(output: &Output) -> String {
     String::from_utf8(output.stderr.clone()).unwrap()
 }
 
-const COMMANDS: [&[&str]; 19] = [
+const COMMANDS: [&[&str]; 21] = [
     &["render"],
     &["check"],
     &["build"],
@@ -29,6 +29,8 @@ const COMMANDS: [&[&str]; 19] = [
     &["reference", "layers"],
     &["diffuse"],
     &["contact-sheet"],
+    &["export"],
+    &["compare"],
     &["bench"],
     &["bench", "kernels"],
 ];
@@ -83,6 +85,11 @@ fn an_argument_out_of_range_is_a_usage_error_that_says_the_range() {
             &[&["render", "--out", "a.png"], &["--light", "0,0,-1"].repeat(5)[..]].concat(),
             "--light is given 5 times, and a frame holds 4 lights",
         ),
+        (&["render", "--out", "a.png", "--ambient", "-1"], "between 0 and 1e6"),
+        (&["render", "--out", "a.png", "--scene", "cube"], "possible values: bust, sphere, ellipsoid"),
+        (&["render", "--out", "a.png", "--scene", "sphere", "--mesh", "a.glb"], "cannot be used with"),
+        (&["export", "--to", "blender", "--out", "a"], "possible values: mitsuba"),
+        (&["compare", "a.exr", "b.exr", "--exposure", "0"], "above 0"),
         (&["render", "--out", "a.png", "--camera", "1,2"], "three numbers"),
         (&["render", "--out", "a.png", "--fov-y-degrees", "180"], "between 1 and 170"),
         (

@@ -1,6 +1,6 @@
 //! A material on its way from its file: names are resolved, and nothing is converted yet.
 
-use crate::material::{Coupling, DiffuseLobe, ResolvedProfile, Transmittance};
+use crate::material::{Coupling, DiffuseLobe, ResolvedProfile, SecondLobe, Transmittance};
 use crate::schema::{LengthGiven, Triple};
 use crate::source::{Span, Spanned};
 
@@ -11,13 +11,17 @@ pub(crate) struct Draft<'a> {
     pub(crate) profile: ResolvedProfile,
     /// Where the material names its profile, when the model is written in another file.
     pub(crate) profile_name: Option<&'a Span>,
-    pub(crate) length: &'a LengthGiven,
-    pub(crate) surface_albedo: &'a Triple,
+    pub(crate) length: LengthGiven,
+    pub(crate) surface_albedo: Triple,
+    /// Where the medium is given by its coefficients.
+    pub(crate) refractive_index: Option<&'a Spanned<f64>>,
     pub(crate) reflectance_at_normal: Option<&'a Spanned<f64>>,
     pub(crate) roughness: Option<&'a Spanned<f64>>,
     pub(crate) coupling: Option<Coupling>,
+    pub(crate) second_lobe: Option<SecondLobe>,
     pub(crate) diffuse: DiffuseLobe,
     pub(crate) transmission_strength: Option<&'a Spanned<f64>>,
+    pub(crate) transmission_diffused: bool,
     pub(crate) transmittance: Option<&'a Spanned<Transmittance>>,
     pub(crate) thin_thickness_mm: Option<&'a Spanned<f64>>,
 }

@@ -9,7 +9,7 @@ use crate::compose::Glue;
 use crate::curves::Curves;
 use crate::dispatch_text::emit_dispatch;
 use crate::identifier::screaming_case;
-use crate::material::MaterialSet;
+use crate::material::{Material, MaterialSet};
 use crate::material_row::{emit_row, row};
 use crate::mixture_text::{emit_mixtures, emit_shape};
 use crate::model_row::{ModelsInUse, Shared, constant};
@@ -62,6 +62,7 @@ pub(crate) fn emit(set: &MaterialSet, choices: &Choices) -> Result<Emitted, NoPr
     let mut glue = Glue::default();
     emit_constants(&mut glue, set, &models.all);
     emit_choices(&mut glue, choices);
+    emit_features(&mut glue.text, set);
     glue.text.push_str(PROFILE_CURVES);
     emit_row(&mut glue.text, &models.of_materials);
     emit_shape(&mut glue.text, models.most_parts);
@@ -134,6 +135,25 @@ fn emit_choices(glue: &mut Glue, choices: &Choices) {
     text.push_str(", write>;\n\n");
 }
 
+/// What at least one material of the set has: what none has costs nothing.
+fn emit_features(text: &mut String, set: &MaterialSet) {
+    let any = |has: fn(&Material) -> bool| set.materials.iter().any(has);
+    for (docs, name, value) in [
+        (
+            "Materials have a second specular lobe.",
+            "SECOND_LOBES",
+            any(|material| material.second_lobe.is_some()),
+        ),
+        (
+            "Light that came through diffuses.",
+            "TRANSMISSION_DIFFUSES",
+            any(|material| material.transmission_diffused),
+        ),
+    ] {
+        let _ = writeln!(text, "/// {docs}\nconst {name}: bool = {value};\n");
+    }
+}
+
 /// Adds the rows of the specular albedo, and the constants that say where they are.
 fn emit_specular_albedo(glue: &mut Glue, curves: &mut Curves) {
     let [at_normal, at_grazing] = specular_albedo::by_cosine();
@@ -143,7 +163,7 @@ fn emit_specular_albedo(glue: &mut Glue, curves: &mut Curves) {
     let text = &mut glue.text;
     for (docs, name, value) in [
         (
-            "First row of the specular albedo by roughness: what F₀ is multiplied by. As many rows on is what is added.",
+            "First row of the specular albedo by roughness: what F₀ is multiplied by. As many rows on is that of F₉₀.",
             "SPECULAR_ALBEDO_ROW",
             first,
         ),

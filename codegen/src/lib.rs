@@ -63,7 +63,7 @@ pub use load::{
     Checked, Loaded, LoadedProfile, LoadedTable, check_paths, load_directory, load_memory, load_profile,
     load_profile_file, load_radial_table,
 };
-pub use material::{Material, MaterialSet, ResolvedProfile};
+pub use material::{DiffuseLobe, Material, MaterialSet, ResolvedProfile};
 pub use output::BuildError;
 pub use profile_text::profile_file_text;
 pub use quality_request::QualityRequest;

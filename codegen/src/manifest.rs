@@ -45,8 +45,13 @@ pub(crate) fn manifest(of: &ManifestOf<'_>, module: &Module, reflection: &Reflec
                     "reflectance_at_normal": material.reflectance_at_normal,
                     "roughness": material.roughness,
                     "coupling": material.coupling.name(),
+                    "second": material.second_lobe.map(|lobe| {
+                        json!({ "roughness": lobe.roughness, "weight": lobe.weight })
+                    }),
                 },
                 "diffuse": material.diffuse.name(),
+                "refractive_index": material.refractive_index,
+                "transmission_diffused": material.transmission_diffused,
                 "transmission_strength": material.transmission_strength,
                 "transmittance": material.transmittance.name(),
                 "thin_thickness_mm": material.thin_thickness_mm,

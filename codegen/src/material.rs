@@ -30,16 +30,23 @@ pub struct Material {
     pub mean_free_path_mm: [f64; 3],
     /// Surface albedo A = ∫ R(r) 2πr dr per channel, in [0, 1].
     pub surface_albedo: [f64; 3],
+    /// Refractive index of the medium over that of what is outside, in [1, 2], where the material gives its coefficients:
+    /// the surface albedo is then that of a medium below such a boundary, per energy that entered.
+    pub refractive_index: Option<f64>,
     /// Fresnel reflectance at normal incidence F0, in [0, 1].
     pub reflectance_at_normal: f64,
     /// Perceptual roughness of the specular lobe, in [0, 1].
     pub roughness: f64,
+    /// A second specular lobe over the same boundary; `None` for one alone.
+    pub second_lobe: Option<SecondLobe>,
     /// How the diffuse light knows of the specular lobe.
     pub coupling: Coupling,
     /// How diffuse light depends on the angles at which it enters and leaves.
     pub diffuse: DiffuseLobe,
     /// Factor on the light that comes through thin parts, ≥ 0; 1 is what `transmittance` says.
     pub transmission_strength: f64,
+    /// Whether what comes through diffuses below the surface that it leaves by, as what enters there does.
+    pub transmission_diffused: bool,
     /// How much light comes through thin parts.
     pub transmittance: Transmittance,
     /// Thickness of a material that is a sheet, in mm, > 0; `None` for one that fills what it bounds.
@@ -64,6 +71,15 @@ impl Material {
             }),
         }
     }
+}
+
+/// A specular lobe beside the first: f = (1 - w) f(r₁) + w f(r₂).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SecondLobe {
+    /// Its perceptual roughness r₂, in [0, 1].
+    pub roughness: f64,
+    /// Its share w of both, in [0, 1].
+    pub weight: f64,
 }
 
 /// How diffuse light knows of the specular lobe above it.

@@ -5,17 +5,18 @@ mod cycle;
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use subsurface_profile::single_scattering_albedo::Entry;
 use subsurface_profile::{Channel, Length, Medium};
 
 use crate::diagnostics::Diagnostic;
 use crate::draft::Draft;
 use crate::identifier::{self, camel_case, screaming_case};
 use crate::lint;
-use crate::material::{Coupling, DiffuseLobe, Material, ResolvedProfile, Transmittance};
+use crate::material::{Coupling, DiffuseLobe, Material, ResolvedProfile, SecondLobe, Transmittance};
 use crate::quality_request::QualityRequest;
 use crate::schema::{
-    DiffuseGiven, Given, LengthGiven, MaterialFile, ProfileExpression, ProfileFile, SET, SetFile, Triple,
-    no_entry, rounded,
+    DiffuseGiven, Given, LengthGiven, MaterialFile, OrMedium, ProfileExpression, ProfileFile, SET, SetFile,
+    Triple, no_entry, reflectance_at_normal, rounded,
 };
 use crate::source::{FileId, Span, Spanned};
 use crate::suggestion::{closest, list, shortened};
@@ -72,13 +73,16 @@ pub(crate) struct Resolution {
 #[derive(Clone, Copy)]
 struct Inherited<'a> {
     profile: &'a Given<(ProfileExpression, Span)>,
-    length: &'a Given<LengthGiven>,
-    surface_albedo: &'a Given<Triple>,
+    length: &'a Given<OrMedium<LengthGiven>>,
+    surface_albedo: &'a Given<OrMedium<Triple>>,
+    refractive_index: &'a Given<Spanned<f64>>,
     reflectance_at_normal: &'a Given<Spanned<f64>>,
     roughness: &'a Given<Spanned<f64>>,
     coupling: &'a Given<Coupling>,
+    second_lobe: &'a Given<SecondLobe>,
     diffuse: &'a Given<Spanned<DiffuseGiven>>,
     transmission_strength: &'a Given<Spanned<f64>>,
+    transmission_diffused: &'a Given<bool>,
     transmittance: &'a Given<Spanned<Transmittance>>,
     thin_thickness_mm: &'a Given<Spanned<f64>>,
     /// Whether every base exists.
@@ -230,11 +234,14 @@ impl Resolution {
             profile: &material.profile,
             length: &material.length,
             surface_albedo: &material.surface_albedo,
+            refractive_index: &material.refractive_index,
             reflectance_at_normal: &material.reflectance_at_normal,
             roughness: &material.roughness,
             coupling: &material.coupling,
+            second_lobe: &material.second_lobe,
             diffuse: &material.diffuse,
             transmission_strength: &material.transmission_strength,
+            transmission_diffused: &material.transmission_diffused,
             transmittance: &material.transmittance,
             thin_thickness_mm: &material.thin_thickness_mm,
             complete: true,
@@ -256,11 +263,14 @@ impl Resolution {
                 profile: first(inherited.profile, &next.profile),
                 length: first(inherited.length, &next.length),
                 surface_albedo: first(inherited.surface_albedo, &next.surface_albedo),
+                refractive_index: first(inherited.refractive_index, &next.refractive_index),
                 reflectance_at_normal: first(inherited.reflectance_at_normal, &next.reflectance_at_normal),
                 roughness: first(inherited.roughness, &next.roughness),
                 coupling: first(inherited.coupling, &next.coupling),
+                second_lobe: first(inherited.second_lobe, &next.second_lobe),
                 diffuse: first(inherited.diffuse, &next.diffuse),
                 transmission_strength: first(inherited.transmission_strength, &next.transmission_strength),
+                transmission_diffused: first(inherited.transmission_diffused, &next.transmission_diffused),
                 transmittance: first(inherited.transmittance, &next.transmittance),
                 thin_thickness_mm: first(inherited.thin_thickness_mm, &next.thin_thickness_mm),
                 complete: true,
@@ -287,8 +297,15 @@ impl Resolution {
             Given::Absent | Given::Bad => None,
         };
         let (profile, profile_name) = profile?;
-        let length = inherited.length.value()?;
-        let surface_albedo = inherited.surface_albedo.value()?;
+        let diffuse = self.diffuse(&profile, inherited.diffuse.value())?;
+        let length = match inherited.length.value()? {
+            OrMedium::Value(length) => length.clone(),
+            OrMedium::Medium(medium) => medium.length(profile.model.length()),
+        };
+        let surface_albedo = match inherited.surface_albedo.value()? {
+            OrMedium::Value(surface_albedo) => surface_albedo.clone(),
+            OrMedium::Medium(medium) => medium.surface_albedo(self.entry(&profile, diffuse, &medium.key)),
+        };
         let numbers = [
             inherited.reflectance_at_normal,
             inherited.roughness,
@@ -297,23 +314,27 @@ impl Resolution {
         ];
         let optional_is_bad = inherited.transmittance.is_bad()
             || inherited.coupling.is_bad()
+            || inherited.second_lobe.is_bad()
+            || inherited.transmission_diffused.is_bad()
             || inherited.diffuse.is_bad()
             || numbers.iter().any(|field| field.is_bad());
-        let usable = self.check_length(&profile, length, surface_albedo, profile_name)
-            && self.check_profile(&profile, length, surface_albedo, profile_name);
+        let usable = self.check_length(&profile, &length, &surface_albedo, profile_name)
+            && self.check_profile(&profile, &length, &surface_albedo, profile_name);
         let fits = self.check_thin(inherited.transmittance.value(), inherited.thin_thickness_mm.value());
-        let diffuse = self.diffuse(&profile, inherited.diffuse.value())?;
         (usable && fits && inherited.complete && !optional_is_bad).then_some(Draft {
             name: &material.name.value,
             profile,
             profile_name,
             length,
             surface_albedo,
+            refractive_index: inherited.refractive_index.value(),
             reflectance_at_normal: inherited.reflectance_at_normal.value(),
             roughness: inherited.roughness.value(),
             coupling: inherited.coupling.value().copied(),
+            second_lobe: inherited.second_lobe.value().copied(),
             diffuse,
             transmission_strength: inherited.transmission_strength.value(),
+            transmission_diffused: inherited.transmission_diffused.value().copied().unwrap_or_default(),
             transmittance: inherited.transmittance.value(),
             thin_thickness_mm: inherited.thin_thickness_mm.value(),
         })
@@ -333,7 +354,8 @@ impl Resolution {
             (
                 inherited.length.is_absent(),
                 "mean_free_path_mm",
-                "add `mean_free_path_mm: (red, green, blue)`, the mean free path 1/(σs′ + σa) in mm"
+                "add `mean_free_path_mm: (red, green, blue)`, the mean free path 1/(σs′ + σa) in mm; or `medium`, its \
+                 coefficients"
                     .to_owned(),
             ),
             (
@@ -480,6 +502,23 @@ impl Resolution {
         entry.map(DiffuseLobe::Chandrasekhar)
     }
 
+    /// How the light enters that the surface albedo of a medium is for; a guess is a warning.
+    fn entry(&mut self, profile: &ResolvedProfile, diffuse: DiffuseLobe, medium: &Span) -> Entry {
+        let of_lobe = match diffuse {
+            DiffuseLobe::Chandrasekhar(entry) => Some(entry),
+            DiffuseLobe::Lambert => None,
+        };
+        let known = of_lobe.or_else(|| profile.model.entry());
+        if known.is_none() {
+            self.diagnostics.push(
+                Diagnostic::warning("the surface albedo of this medium is taken for perpendicular entry")
+                    .label(medium.clone(), "the profile does not say how light enters")
+                    .help("write `diffuse: Chandrasekhar(entry: Searchlight)`, or `entry: Diffuse` if it is for light from everywhere"),
+            );
+        }
+        known.unwrap_or(Entry::Searchlight)
+    }
+
     /// Whether the law of transmittance is one that a sheet can have.
     fn check_thin(&mut self, law: Option<&Spanned<Transmittance>>, thin: Option<&Spanned<f64>>) -> bool {
         let (Some(law), Some(thin)) = (law.filter(|law| law.value == Transmittance::Profile), thin) else {
@@ -506,11 +545,19 @@ fn finish(file: &MaterialFile, draft: Draft<'_>) -> Material {
         docs: file.docs.clone(),
         mean_free_path_mm: draft.length.value.values,
         surface_albedo: draft.surface_albedo.values,
-        reflectance_at_normal: number(draft.reflectance_at_normal, DEFAULT_REFLECTANCE_AT_NORMAL),
+        refractive_index: draft.refractive_index.map(|index| index.value),
+        reflectance_at_normal: number(
+            draft.reflectance_at_normal,
+            draft
+                .refractive_index
+                .map_or(DEFAULT_REFLECTANCE_AT_NORMAL, |index| reflectance_at_normal(index.value)),
+        ),
         roughness: number(draft.roughness, DEFAULT_ROUGHNESS),
+        second_lobe: draft.second_lobe,
         coupling: draft.coupling.unwrap_or_default(),
         diffuse: draft.diffuse,
         transmission_strength: number(draft.transmission_strength, DEFAULT_TRANSMISSION_STRENGTH),
+        transmission_diffused: draft.transmission_diffused,
         transmittance: draft
             .transmittance
             .map_or_else(|| Transmittance::of_model(&draft.profile.model), |law| law.value),

@@ -1,6 +1,6 @@
 //! How much of the light the specular lobe sends back, by angle and roughness: baked, as its integral has no closed form.
 //!
-//! With Schlick's Fresnel term the share is E(μ) = F₀ a + b, so two functions of cosine and roughness serve every
+//! With Schlick's Fresnel term the share is E(μ) = F₀ a + F₉₀ b, so two functions of cosine and roughness serve every
 //! reflectance at normal incidence.
 
 use std::f64::consts::PI;

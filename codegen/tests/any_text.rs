@@ -5,9 +5,18 @@ use subsurface_codegen::{Loaded, load_memory, profile_file_text};
 use subsurface_profile::ModelKind;
 
 /// Pieces that material files are made of, and some that they are not.
-const PIECES: [&str; 73] = [
+const PIECES: [&str; 82] = [
     "Material",
     "MaterialSet",
+    "medium",
+    "second",
+    "weight",
+    "transmission",
+    "diffused",
+    "reduced_scattering_per_mm",
+    "anisotropy",
+    "absorption_per_mm",
+    "refractive_index",
     "kernel",
     "Interleaved",
     "Separable",

@@ -1,5 +1,7 @@
 //! What a number means, and which values it may take.
 
+use std::borrow::Cow;
+
 /// Legal values of a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Bounds {
@@ -11,6 +13,8 @@ pub enum Bounds {
     NonNegative,
     /// From 0 to 1, both included.
     Unit,
+    /// Between two whole numbers, both included.
+    Between(i8, i8),
 }
 
 impl Bounds {
@@ -22,16 +26,18 @@ impl Bounds {
                 Bounds::Positive => value > 0.0,
                 Bounds::NonNegative => value >= 0.0,
                 Bounds::Unit => (0.0..=1.0).contains(&value),
+                Bounds::Between(low, high) => (f64::from(low)..=f64::from(high)).contains(&value),
             }
     }
 
     /// The values in a few words, for a table: `above 0`.
-    pub fn words(self) -> &'static str {
+    pub fn words(self) -> Cow<'static, str> {
         match self {
-            Bounds::Any => "any",
-            Bounds::Positive => "above 0",
-            Bounds::NonNegative => "0 or more",
-            Bounds::Unit => "0 to 1",
+            Bounds::Any => "any".into(),
+            Bounds::Positive => "above 0".into(),
+            Bounds::NonNegative => "0 or more".into(),
+            Bounds::Unit => "0 to 1".into(),
+            Bounds::Between(low, high) => format!("{low} to {high}").into(),
         }
     }
 }
@@ -68,6 +74,7 @@ impl Quantity {
             Bounds::Positive => format!("expected a {} above 0", self.kind),
             Bounds::NonNegative => "expected 0 or more".to_owned(),
             Bounds::Unit => format!("expected a {} from 0 to 1", self.kind),
+            Bounds::Between(low, high) => format!("expected a {} from {low} to {high}", self.kind),
         }
     }
 }
@@ -109,6 +116,7 @@ mod tests {
             (Bounds::Positive, [1e-300, 1e300], [0.0, -1.0]),
             (Bounds::NonNegative, [0.0, 1e300], [-1e-300, f64::NAN]),
             (Bounds::Unit, [0.0, 1.0], [-1e-300, 1.0 + f64::EPSILON]),
+            (Bounds::Between(-1, 2), [-1.0, 2.0], [-1.0 - f64::EPSILON, f64::NAN]),
         ] {
             assert!(legal.into_iter().all(|value| bounds.contain(value)), "{bounds:?}");
             assert!(!illegal.into_iter().any(|value| bounds.contain(value)), "{bounds:?}");

@@ -42,6 +42,11 @@ pub const SHARED_CONSTANTS: &[SharedConstant] = &[
         values: &half_space::ANGLES[2],
     },
     SharedConstant {
+        name: "HALF_SPACE_MEAN",
+        docs: "1/⟨H⟩ − γ of a half-space, over 1 − γ: coefficients of 1, γ and γ².",
+        values: &half_space::MEAN,
+    },
+    SharedConstant {
         name: "INTERNAL_REFLECTANCE",
         docs: "F_dr from η = 1 on, as coefficients of η⁻², η⁻¹, 1 and η (Jensen et al. 2001, after Groenhuis et al. 1983).",
         values: &dipole::INTERNAL_REFLECTANCE,

@@ -371,6 +371,26 @@ fn specular_albedo(view: f64, roughness: f64, reflectance_at_normal: f64) -> f64
 }
 
 #[test]
+fn a_white_furnace_is_white_under_two_lobes() {
+    let gpu = Gpu::open();
+    for (first, second, weight) in [(0.4, 0.2, 0.3), (0.9, 0.1, 0.5), (0.3, 1.0, 1.0)] {
+        let white = format!(
+            "Material(profile: \"two_exponential_dipole_searchlight\", mean_free_path_mm: (1.0, 1.0, 1.0), \
+             surface_albedo: (1.0, 1.0, 1.0), specular: (roughness: {first:?}, second: (roughness: {second:?}, \
+             weight: {weight:?})))"
+        );
+        for view in COSINES {
+            let mut scene = Scene::new(&gpu, &white, &[tilted(view)]);
+            let [diffuse, unscattered] = scene.radiance(None);
+            for (diffuse, unscattered) in diffuse.into_iter().zip(unscattered) {
+                // As for one lobe.
+                assert!((diffuse + unscattered - 1.0).abs() < 2e-3, "{view}: {diffuse} + {unscattered}");
+            }
+        }
+    }
+}
+
+#[test]
 fn a_white_furnace_is_white_at_every_roughness() {
     let gpu = Gpu::open();
     let mut worst = 0.0_f64;
@@ -501,4 +521,90 @@ fn a_texture_far_away_is_its_mean() {
     let albedo = scene.texel(&scene.renderer.targets().expect("resized").surface);
     // Half of the light, in codes of eight bits on eight levels.
     assert!(albedo[..3].iter().all(|albedo| (albedo - 0.5).abs() < 0.02), "{albedo:?}");
+}
+
+/// The direction of a light behind a slab, at an angle from its normal.
+fn behind(degrees: f64) -> [f64; 3] {
+    let (sin, cos) = degrees.to_radians().sin_cos();
+    [sin, 0.0, -cos]
+}
+
+#[test]
+fn light_that_comes_through_remembers_no_angle_but_how_it_entered_and_leaves() {
+    let gpu = Gpu::open();
+    let slab = block([0.15, 0.15, 2e-3]);
+    let mut scene =
+        Scene::new(&gpu, &medium("specular: (reflectance_at_normal: 0, coupling: None)"), &[slab]);
+    for degrees in [0.0, 30.0, 60.0, 75.0_f64] {
+        let cosine = degrees.to_radians().cos();
+        let [_, found] = scene.middle(behind(degrees), Bounds::new([0.0; 3], 0.25));
+        for (channel, through) in slab_law(4.0).into_iter().enumerate() {
+            let half_space = HalfSpace::of(Entry::Searchlight, SURFACE_ALBEDO[channel]);
+            let angles = half_space.through_entry(cosine) * half_space.through_exit(1.0);
+            let expected = cosine * through * angles;
+            // What the law itself is held to.
+            assert!((found[channel] / expected - 1.0).abs() < 0.02, "{degrees}°: {found:?}, {expected}");
+        }
+    }
+}
+
+#[test]
+fn diffusing_what_comes_through_changes_nothing_where_all_is_alike() {
+    let gpu = Gpu::open();
+    for fields in
+        ["specular: (reflectance_at_normal: 0)", "", "diffuse: Lambert", "surface_albedo: (0.5, 0.3, 0.0)"]
+    {
+        let fields = |more: &str| {
+            let (own, others) =
+                if fields.starts_with("surface_albedo") { (fields, "") } else { ("", fields) };
+            let text = medium(&format!("{others}{}{more}", if others.is_empty() { "" } else { ", " }));
+            if own.is_empty() { text } else { text.replace("surface_albedo: (0.83, 0.64, 0.55)", own) }
+        };
+        let picture = |text: &str| {
+            let mut scene = Scene::new(&gpu, text, &[block([0.15, 0.15, 2e-3])]);
+            let light =
+                DirectionalLight { direction: behind(40.0).map(|x| -x as f32), irradiance: [PI as f32; 3] };
+            let [irradiance, _, picture] = scene.lit(&[light], 0.0, Bounds::new([0.0; 3], 0.25));
+            (irradiance[0], picture)
+        };
+        let (_, direct) = picture(&fields(""));
+        let (entered, diffused) = picture(&fields("transmission: (diffused: true)"));
+        assert!(entered > 0.01, "nothing went into the irradiance");
+        for (channel, (direct, diffused)) in direct.into_iter().zip(diffused).take(3).enumerate() {
+            // Half floats on both ways.
+            assert!((direct - diffused).abs() < 3e-3 * direct + 1e-4, "{channel}: {direct}, {diffused}");
+        }
+    }
+}
+
+#[test]
+fn without_a_boundary_nothing_shines() {
+    let gpu = Gpu::open();
+    let mut scene =
+        Scene::new(&gpu, &medium("specular: (reflectance_at_normal: 0, roughness: 0.3)"), &[tilted(0.2)]);
+    for light in [None, Some([0.0, 0.0, 1.0]), Some(beside(0.2, 0.1))] {
+        let [_, unscattered] = scene.radiance(light);
+        assert_eq!(unscattered, [0.0; 3], "{light:?}");
+    }
+}
+
+#[test]
+fn a_second_lobe_of_no_weight_or_of_the_same_roughness_changes_no_bit() {
+    let gpu = Gpu::open();
+    let seen = |fields: &str| {
+        let mut scene = Scene::new(&gpu, &medium(fields), &[tilted(0.6)]);
+        [Some([0.0, 0.0, 1.0]), Some(beside(0.6, 0.7)), None].map(|light| scene.radiance(light))
+    };
+    let one = seen("specular: (roughness: 0.4)");
+    for second in ["roughness: 0.9, weight: 0.0", "roughness: 0.4, weight: 0.7"] {
+        assert!(seen(&format!("specular: (roughness: 0.4, second: ({second}))")) == one, "{second}");
+    }
+    // A mixture lies between its parts, by their weights.
+    let [other, both] = ["", ", second: (roughness: 0.9, weight: 0.25)"].map(|second| {
+        seen(&format!("specular: (roughness: {}{second})", if second.is_empty() { 0.9 } else { 0.4 }))
+    });
+    for ((one, other), both) in one.iter().zip(&other).zip(&both) {
+        let expected = 0.75 * one[1][0] + 0.25 * other[1][0];
+        assert!((both[1][0] - expected).abs() < 1e-3 * expected + 1e-4, "{}: {expected}", both[1][0]);
+    }
 }

@@ -21,8 +21,14 @@ struct MaterialSurface {
     coupling: u32,
     /// How diffuse light depends on its angles: one of the `DIFFUSE_…` constants.
     diffuse: u32,
+    /// Roughness of a second specular lobe, 0 to 1.
+    second_roughness: f32,
+    /// Its share of both lobes, 0 to 1.
+    second_weight: f32,
     /// Factor on the light that comes through from the far side, 0 for none.
     transmission_strength: f32,
+    /// 1: what comes through diffuses below the surface that it leaves by; 0: it leaves where it arrives.
+    transmission_diffused: u32,
     /// First row of the quantile curves of its profile in `profile_curves`.
     first_curve: u32,
     /// Number of its curves: one per node of the surface albedo, or one per channel.

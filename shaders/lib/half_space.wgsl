@@ -40,6 +40,17 @@ fn relative_diffuse_albedo(root: vec3f) -> vec3f {
     return 2.0 / (linear + sqrt(linear * linear + 4.0 * (c.x + c.z * root) * (1.0 - root)));
 }
 
+/// H(μ) for that u.
+fn half_space_h(u: vec3f, root: vec3f) -> vec3f {
+    return 1.0 / (root + (1.0 - root) * u);
+}
+
+/// 1/⟨H⟩, ⟨H⟩ = 2 ∫ H(μ) μ dμ.
+fn inverse_mean_h(root: vec3f) -> vec3f {
+    let c = HALF_SPACE_MEAN;
+    return root + (1.0 - root) * (c.x + (c.y + c.z * root) * root);
+}
+
 /// Cosine below a boundary of light that crosses it at a cosine; `inverse_square` is 1/η².
 fn refracted_cosine(cosine: f32, inverse_square: f32) -> f32 {
     return sqrt(1.0 - (1.0 - cosine * cosine) * inverse_square);

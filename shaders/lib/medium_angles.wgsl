@@ -20,6 +20,8 @@ struct MediumAngles {
     numerator: vec3f,
     /// Radiance that leaves over Lambert's below a boundary.
     exit_share: f32,
+    /// Radiance over Lambert's of light that came through, over H at perpendicular entry; 1 below a boundary.
+    through: vec3f,
 }
 
 /// 1/η² of the boundary whose reflectance at normal incidence is F₀ = ((η − 1)/(η + 1))².
@@ -34,7 +36,8 @@ fn medium_angles(diffuse: u32, surface_albedo: vec3f, reflectance_at_normal: f32
     let inverse_square = inverse_square_index(reflectance_at_normal);
     let root = half_space_roots(diffuse == DIFFUSE_EVERYWHERE, surface_albedo);
     let below = refracted_cosine(leaving, inverse_square);
-    let at_normal = relative_half_space_albedo(half_space_u(1.0, root), root);
+    let u_at_normal = half_space_u(1.0, root);
+    let at_normal = relative_half_space_albedo(u_at_normal, root);
     let of_profile = select(relative_diffuse_albedo(root), at_normal, diffuse == DIFFUSE_SEARCHLIGHT);
     let everywhere = relative_diffuse_albedo_below(root, inverse_square);
     let u = half_space_u(below, root);
@@ -43,32 +46,73 @@ fn medium_angles(diffuse: u32, surface_albedo: vec3f, reflectance_at_normal: f32
     let numerator = select(1.0 / (3.0 * everywhere), pairing / of_profile, is_matched);
     let exit = dot(relative_half_space_albedo(u, root), numerator);
     let exit_share = select(exit, 1.0, is_matched || diffuse == DIFFUSE_LAMBERT);
-    return MediumAngles(diffuse, inverse_square, root, below, everywhere / of_profile, numerator, exit_share);
+    let through = half_space_h(u, root) * inverse_mean_h(root) / half_space_h(u_at_normal, root);
+    let is_lambert = !is_matched || diffuse == DIFFUSE_LAMBERT;
+    return MediumAngles(
+        diffuse,
+        inverse_square,
+        root,
+        below,
+        everywhere / of_profile,
+        numerator,
+        exit_share,
+        select(through, vec3f(1.0), is_lambert),
+    );
 }
 
-/// Light that enters at this cosine and leaves at the medium's, over what the profile and `exit_of` say: A(μ)/A(1), or
+/// A direction in which light enters.
+struct EnteringAngles {
+    /// Its cosine below the boundary.
+    below: f32,
+    /// u and H of the medium there.
+    u: vec3f,
+    h: vec3f,
+}
+
+fn entering_angles(medium: MediumAngles, cosine: f32) -> EnteringAngles {
+    let below = refracted_cosine(cosine, medium.inverse_square);
+    let u = half_space_u(below, medium.root);
+    return EnteringAngles(below, u, half_space_h(u, medium.root));
+}
+
+/// Light that enters so and leaves at the medium's cosine, over what the profile and `exit_of` say: A(μ)/A(1), or
 /// A(μ)/Ā. Without a boundary, of pairs of angles also what lies in no product of the two,
 ///
 ///     α H(μ) H(μᵥ)/(4π (μ + μᵥ)) over A(μ) A(μᵥ)/(π Ā)
 ///
 /// of which light that was scattered once has the most (Chandrasekhar 1960, "Radiative Transfer"). It stands in the
 /// irradiance, so that this depends on the viewer. Below a boundary cosines are close to 1, and pairs alike.
-fn medium_entry(medium: MediumAngles, cosine: f32) -> vec3f {
+fn medium_entry(medium: MediumAngles, entering: EnteringAngles) -> vec3f {
     if medium.diffuse == DIFFUSE_LAMBERT {
         return vec3f(1.0);
     }
-    let below = refracted_cosine(cosine, medium.inverse_square);
-    let u = half_space_u(below, medium.root);
-    let per_u = 1.0 / (medium.root + (1.0 - medium.root) * u);
     if medium.inverse_square >= 1.0 {
-        return medium.numerator * per_u / (max(below, LEAST_COSINE) + medium.leaving);
+        return medium.numerator * entering.h / (max(entering.below, LEAST_COSINE) + medium.leaving);
     }
-    return medium.ambient_entry * dot(u * per_u, medium.numerator);
+    return medium.ambient_entry * dot(entering.u * entering.h, medium.numerator);
+}
+
+/// Light that enters so on the far side and comes through, over what does at perpendicular entry and leaves as
+/// Lambert's: H(μ)/H(1) · H(μᵥ)/⟨H⟩, as of light that was scattered often (the Milne problem; Chandrasekhar 1960).
+/// Below a boundary 1.
+fn medium_through(medium: MediumAngles, entering: EnteringAngles) -> vec3f {
+    let is_lambert = medium.inverse_square < 1.0 || medium.diffuse == DIFFUSE_LAMBERT;
+    return medium.through * select(entering.h, vec3f(1.0), is_lambert);
 }
 
 /// The same of light that enters from everywhere alike.
 fn medium_ambient_entry(medium: MediumAngles) -> vec3f {
     return select(medium.ambient_entry, vec3f(1.0), medium.diffuse == DIFFUSE_LAMBERT);
+}
+
+/// Radiance that leaves over Lambert's of what entered on this side: what the composite multiplies by, `exit_of` and
+/// `exit_share` together.
+fn medium_exit(medium: MediumAngles) -> vec3f {
+    if medium.diffuse == DIFFUSE_LAMBERT || medium.inverse_square < 1.0 {
+        return vec3f(medium.exit_share);
+    }
+    let u = half_space_u(medium.leaving, medium.root);
+    return relative_half_space_albedo(u, medium.root) / relative_diffuse_albedo(medium.root);
 }
 
 // A pixel's `diffuse` and the cosine at which its light leaves, as one number that a half float holds: 1 for Lambert's,

@@ -1,15 +1,6 @@
-// uses: kernel/constants, light/{fresnel, specular_albedo}
+// uses: kernel/constants, light/{fresnel, specular_surface}
 
 // How diffuse light knows of the specular lobe above it: what that sends back does not enter.
-
-/// A surface as the coupling sees it.
-struct SpecularSurface {
-    /// One of the `COUPLING_…` constants.
-    coupling: u32,
-    /// F₀.
-    reflectance_at_normal: f32,
-    roughness: f32,
-}
 
 /// Share of the light that enters at this cosine: 1 − F(μ), or 1 − E(μ).
 fn entering_share(surface: SpecularSurface, cosine: f32) -> f32 {
@@ -19,7 +10,7 @@ fn entering_share(surface: SpecularSurface, cosine: f32) -> f32 {
     if surface.coupling == COUPLING_ENTRY {
         return 1.0 - fresnel_schlick(surface.reflectance_at_normal, cosine);
     }
-    return 1.0 - specular_albedo(cosine, surface.roughness, surface.reflectance_at_normal);
+    return 1.0 - surface_specular_albedo(surface, cosine);
 }
 
 /// The same of light that comes from everywhere alike.
@@ -30,7 +21,7 @@ fn entering_ambient_share(surface: SpecularSurface) -> f32 {
     if surface.coupling == COUPLING_ENTRY {
         return 1.0 - fresnel_schlick_mean(surface.reflectance_at_normal);
     }
-    return 1.0 - specular_albedo_mean(surface.roughness, surface.reflectance_at_normal);
+    return 1.0 - surface_specular_albedo_mean(surface);
 }
 
 /// Radiance that leaves where the lobe sends `specular` of the light back, over the mean of all directions, which

@@ -1,4 +1,4 @@
-// uses: gather/input, kernel/constants, lib/{angle, medium_angles, numeric_limits, object_transform, slab}, light/{coupling, directional_light, normal_map, shadow, specular, specular_albedo, transmission}, the material set
+// uses: gather/input, kernel/constants, lib/{angle, medium_angles, numeric_limits, object_transform, slab}, light/{coupling, directional_light, normal_map, shadow, specular_surface, transmission}, the material set
 
 /// Camera and lights of one frame.
 struct GBufferFrame {
@@ -33,6 +33,9 @@ struct GBufferObject {
     /// Roughness of an opaque object.
     opaque_roughness: f32,
 }
+
+/// Surface albedo below which light that came through leaves in part where it arrives.
+const LEAST_DIFFUSING_ALBEDO: f32 = 0.02;
 
 @group(2) @binding(0) var<uniform> frame: GBufferFrame;
 @group(2) @binding(1) var shadow_maps: texture_depth_2d_array;
@@ -105,12 +108,13 @@ fn gbuffer_fragment(interpolated: GBufferInterpolated, @builtin(front_facing) fr
     let is_thin = translucent && row.surface.thin_thickness_mm > 0.0;
 
     let coupling = select(COUPLING_FULL, row.surface.coupling, translucent);
-    let specular = SpecularSurface(coupling, reflectance, roughness);
+    let second_weight = select(0.0, row.surface.second_weight, translucent);
+    let specular = SpecularSurface(coupling, reflectance, roughness, row.surface.second_roughness, second_weight);
     // A sheet has no half-space below it.
     let diffuse = select(DIFFUSE_LAMBERT, row.surface.diffuse, translucent && !is_thin);
     let view_cosine = max(dot(normal, towards_camera), LEAST_EXIT_COSINE);
     let medium = medium_angles(diffuse, surface_albedo, reflectance, view_cosine);
-    let view_albedo = specular_albedo(view_cosine, roughness, reflectance);
+    let view_albedo = surface_specular_albedo(specular, view_cosine);
     let ambient_share = entering_ambient_share(specular);
     let leaving = leaving_share(specular, view_albedo, ambient_share);
     let sheet_length = row.surface.slab_mean_free_path_mm;
@@ -136,20 +140,30 @@ fn gbuffer_fragment(interpolated: GBufferInterpolated, @builtin(front_facing) fr
         let cosine = max(dot(normal, light.towards_light), 0.0);
         let arriving = light.irradiance * visibility * facing;
         let facing_away = max(-true_cosine, 0.0);
-        let entering = entering_share(specular, select(cosine, facing_away, is_behind));
-        irradiance += arriving * (cosine * entering) * medium_entry(medium, cosine);
-        unscattered +=
-            arriving * specular_reflection(normal, light.towards_light, towards_camera, reflectance, roughness);
+        let entering_cosine = select(cosine, facing_away, is_behind);
+        let entering = entering_share(specular, entering_cosine);
+        let angles = entering_angles(medium, entering_cosine);
+        irradiance += arriving * (cosine * entering) * medium_entry(medium, angles);
+        unscattered += arriving * surface_reflection(specular, normal, light.towards_light, towards_camera);
         let behind = light.irradiance * (facing_away * entering);
         if is_thin {
             through += visibility * behind * sheet;
         } else if transmission > 0.0 && is_behind {
             let position = interpolated.world_position;
-            through +=
-                behind * transmitted_share(light, i, position, smooth_normal, row.surface, profiles, surface_albedo);
+            let share =
+                transmitted_share(light, i, position, smooth_normal, row.surface, profiles, surface_albedo);
+            through += behind * share * medium_through(medium, angles);
         }
     }
-    unscattered += transmission * leaving * through / PI;
+    through *= transmission;
+    if TRANSMISSION_DIFFUSES && row.surface.transmission_diffused != 0u && !is_thin {
+        // As much irradiance as leaves with the same radiance where all is alike. What is nearly black diffuses little.
+        let diffusing = max(surface_albedo, vec3f(LEAST_DIFFUSING_ALBEDO));
+        let diffused = select(vec3f(0.0), through / (diffusing * medium_exit(medium)), translucent);
+        irradiance += diffused;
+        through *= 1.0 - surface_albedo / diffusing;
+    }
+    unscattered += leaving * through / PI;
 
     var targets: GBufferTargets;
     // The targets hold half floats: a mirror's highlight must end at their largest value, not at infinity.

@@ -136,6 +136,7 @@ pub const LIGHT: &[Module] = modules![
     "light/shadow",
     "light/specular",
     "light/specular_albedo",
+    "light/specular_surface",
     "light/transmission",
 ];
 

@@ -11,8 +11,11 @@ pub mod adapter;
 pub mod bench;
 pub mod build;
 pub mod check;
+#[cfg(feature = "analysis")]
+pub mod compare;
 pub mod contact_sheet;
 pub mod diffuse;
+pub mod export;
 pub mod kernel;
 mod lights;
 mod material_set;
@@ -85,6 +88,15 @@ pub enum Command {
     /// The first tile has no subsurface scattering. The others differ in the profile alone; everything else of the
     /// material stays.
     ContactSheet(contact_sheet::ContactSheetArguments),
+    /// Write a scene for a path tracer, to see what the light should be.
+    ///
+    /// `mitsuba` is Mitsuba 3: meshes as PLY in mm, the camera, the lights, and each object as a medium whose mean free
+    /// path and albedo are the material's. One file per colour channel; render them with `reference/pictures/render.py`,
+    /// and compare with `subsurface compare`.
+    Export(export::ExportArguments),
+    /// Tell how far a picture is from a truth: RMSE, PSNR, mean, FLIP.
+    #[cfg(feature = "analysis")]
+    Compare(compare::CompareArguments),
     /// Measure kernels: errors and times side by side.
     #[cfg(feature = "analysis")]
     Bench(bench::BenchArguments),
@@ -104,6 +116,9 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         Command::Reference(arguments) => reference::run(arguments),
         Command::Diffuse(arguments) => diffuse::run(arguments),
         Command::ContactSheet(arguments) => contact_sheet::run(arguments),
+        Command::Export(arguments) => export::run(arguments),
+        #[cfg(feature = "analysis")]
+        Command::Compare(arguments) => compare::run(arguments),
         #[cfg(feature = "analysis")]
         Command::Bench(arguments) => bench::run(arguments),
         Command::Adapter(arguments) => adapter::run(arguments),

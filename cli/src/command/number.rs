@@ -15,6 +15,17 @@ pub(super) fn fov_y_degrees(text: &str) -> Result<f32, String> {
         .map(|value| value as f32)
 }
 
+/// How bright a light is: 1 lights white up to white.
+pub(super) fn intensity(text: &str) -> Result<f32, String> {
+    within(text, "between 0 and 1e6", |value| (0.0..=1e6).contains(&value)).map(|value| value as f32)
+}
+
+/// A factor on a picture's light.
+#[cfg(feature = "analysis")]
+pub(super) fn exposure(text: &str) -> Result<f32, String> {
+    within(text, "above 0, and at most 1e6", |value| value > 0.0 && value <= 1e6).map(|value| value as f32)
+}
+
 /// A length in mm that a shader can hold.
 pub(super) fn pixel_mm(text: &str) -> Result<f32, String> {
     // Outside this range a square underflows or overflows in f32.

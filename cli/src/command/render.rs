@@ -125,6 +125,7 @@ pub fn run(arguments: &RenderArguments) -> Result<(), Failure> {
             material_of_object: &material_of_object(&scene, &materials, material),
             camera: arguments.view.camera(&scene, arguments.size)?,
             lights: &arguments.view.lights(),
+            ambient_intensity: arguments.view.ambient,
             size: arguments.size,
             shown: match arguments.debug {
                 Some(view) => Shown::Debug(view),

@@ -4,8 +4,8 @@ use super::lights::Lights;
 use super::number;
 use crate::failure::{Failure, warning};
 use crate::progress::Spinner;
-use crate::scene::camera::{Camera, DEFAULT_FOV_Y_DEGREES, Light, Size, Triple};
-use crate::scene::{Scene, bust, gltf, texture_orientation};
+use crate::scene::camera::{Camera, DEFAULT_AMBIENT_INTENSITY, DEFAULT_FOV_Y_DEGREES, Light, Size, Triple};
+use crate::scene::{Scene, bust, gltf, shapes, texture_orientation};
 use clap::{Args, ValueEnum};
 use glam::Vec3;
 use std::path::PathBuf;
@@ -16,6 +16,9 @@ pub struct MeshArguments {
     /// glTF file, binary or text, in metres; by default the procedural bust.
     #[arg(long, value_name = "FILE.glb")]
     pub mesh: Option<PathBuf>,
+    /// A procedural scene.
+    #[arg(long, value_enum, value_name = "NAME", conflicts_with = "mesh", default_value_t = Procedural::Bust)]
+    pub scene: Procedural,
     /// Whether to turn the file's textures upside down; --flip-v alone means always.
     ///
     /// glTF has texture coordinate (0, 0) at the image's upper left; some converters put it at the lower left.
@@ -32,6 +35,37 @@ pub struct MeshArguments {
     pub flip_v: FlipV,
 }
 
+/// Scenes that need no file.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum Procedural {
+    /// A bust with thin ears.
+    #[default]
+    Bust,
+    /// A sphere of 40 mm radius.
+    Sphere,
+    /// An ellipsoid with half axes of 60, 81 and 48 mm.
+    Ellipsoid,
+    /// The same, half in the shadow of a plate: for light along -0.8,0,-0.6.
+    ShadowedEllipsoid,
+    /// A rounded slab of 60, 60 and 6 mm, thin along z.
+    Slab,
+    /// A shell of 36, 56 and 3 mm, bent like an ear.
+    Shell,
+}
+
+impl Procedural {
+    fn scene(self) -> Scene {
+        match self {
+            Self::Bust => bust::scene(bust::CELL_MM),
+            Self::Sphere => shapes::sphere(),
+            Self::Ellipsoid => shapes::ellipsoid(),
+            Self::ShadowedEllipsoid => shapes::shadowed_ellipsoid(),
+            Self::Slab => shapes::slab(),
+            Self::Shell => shapes::shell(),
+        }
+    }
+}
+
 /// When a file's textures are turned upside down.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub enum FlipV {
@@ -44,11 +78,11 @@ pub enum FlipV {
     Never,
 }
 
-/// The scene in the file, or the bust; prints warnings.
+/// The scene in the file, or a procedural one; prints warnings.
 pub(super) fn load_scene(arguments: &MeshArguments) -> Result<Scene, Failure> {
     let Some(path) = &arguments.mesh else {
-        let _spinner = Spinner::new("sculpting the bust");
-        return Ok(bust::scene(bust::CELL_MM));
+        let _spinner = Spinner::new("sculpting the scene");
+        return Ok(arguments.scene.scene());
     };
     let spinner = Spinner::new(format!("reading {}", path.display()));
     let loaded = gltf::load(path, |what| spinner.say(format!("reading {}: {what}", path.display())));
@@ -84,6 +118,9 @@ pub struct ViewArguments {
     /// Where the light comes from.
     #[command(flatten)]
     pub lights: Lights,
+    /// Irradiance that comes from everywhere alike, as a light's intensity: 0 for none.
+    #[arg(long, value_name = "INTENSITY", default_value_t = DEFAULT_AMBIENT_INTENSITY, value_parser = number::intensity, allow_hyphen_values = true)]
+    pub ambient: f32,
 }
 
 impl ViewArguments {

@@ -27,9 +27,6 @@ const DISPLAY_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
 /// Format of the picture in linear light.
 const LINEAR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Float;
 
-/// Irradiance from everywhere alike, so that no shadow is black: a fortieth of a light of intensity 1.
-const AMBIENT_INTENSITY: f32 = 0.025;
-
 /// One picture to draw.
 #[derive(Clone, Copy, Debug)]
 pub struct Frame<'a> {
@@ -41,6 +38,8 @@ pub struct Frame<'a> {
     pub camera: Camera,
     /// Where the light comes from; the first one is the most important.
     pub lights: &'a [Light],
+    /// Irradiance that comes from everywhere alike, as a light's intensity.
+    pub ambient_intensity: f32,
     /// Size of the picture.
     pub size: Size,
     /// Pixels drawn per pixel of the picture, along each side: 1, or more for smooth silhouettes.
@@ -257,7 +256,7 @@ fn prepare(
     };
     let frame = runtime::Frame {
         lights: &lights,
-        ambient_irradiance: [std::f32::consts::PI * AMBIENT_INTENSITY; 3],
+        ambient_irradiance: [std::f32::consts::PI * frame.ambient_intensity; 3],
         transmission: if frame.shown == Shown::Surface { 0.0 } else { 1.0 },
         taps: if frame.shown == Shown::Surface { Some(0) } else { None },
         ..runtime::Frame::new(camera, bounds, MILLIMETRES_PER_WORLD_UNIT)
@@ -281,9 +280,11 @@ fn objects(device: &Device, frame: &Frame<'_>) -> Result<Vec<Object>, Failure> {
             })
             .collect();
         let geometry = Geometry::new(&device.device, &vertices, &mesh.indices);
-        let [red, green, blue, _] = surface.base_colour_factor;
+        let factor = if surface.is_black { [0.0; 4] } else { surface.base_colour_factor };
+        let [red, green, blue, _] = factor;
         let descriptor = SurfaceDescriptor {
-            material: Some(material),
+            material: (!surface.is_black).then_some(material),
+            opaque_reflectance_at_normal: 0.0,
             surface_albedo: surface.base_colour.as_ref().map(pixels),
             surface_albedo_factor: [red, green, blue],
             normals: surface.normal_map.as_ref().map(pixels),

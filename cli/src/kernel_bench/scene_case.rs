@@ -6,7 +6,7 @@ use crate::draw::{Buffers, Drawn, Frame, PixelScale, Route, Shown, Studio};
 use crate::failure::Failure;
 use crate::picture::LinearPicture;
 use crate::scene::Scene;
-use crate::scene::camera::{Camera, DEFAULT_FOV_Y_DEGREES, Light, Size};
+use crate::scene::camera::{Camera, DEFAULT_AMBIENT_INTENSITY, DEFAULT_FOV_Y_DEGREES, Light, Size};
 use glam::Vec3;
 use subsurface_codegen::Compilation;
 
@@ -81,6 +81,7 @@ impl SceneCases<'_> {
             material_of_object: &vec![subject.number(); self.scene.objects.len()],
             camera,
             lights: &Light::DEFAULT,
+            ambient_intensity: DEFAULT_AMBIENT_INTENSITY,
             size: self.size,
             supersampling: 1,
             shown: Shown::Surface,

@@ -1,5 +1,7 @@
 //! Pictures in memory and as files.
 
+#[cfg(feature = "analysis")]
+pub mod comparison;
 pub mod contact_sheet;
 mod error;
 pub mod exr;
@@ -67,7 +69,7 @@ fn shrunk(size: Size, pixels: &[[f32; 3]], factor: u32) -> (Size, Vec<[f32; 3]>)
 }
 
 /// Linear light of an sRGB code value, IEC 61966-2-1.
-fn linear_from_srgb(code: u8) -> f32 {
+pub(crate) fn linear_from_srgb(code: u8) -> f32 {
     let value = f32::from(code) / 255.0;
     if value <= 0.04045 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) }
 }

@@ -7,6 +7,10 @@ use std::str::FromStr;
 /// Vertical field of view when none is asked for (degrees): about that of an 85 mm lens, the portrait's.
 pub const DEFAULT_FOV_Y_DEGREES: f32 = 24.0;
 
+/// Irradiance from everywhere alike when none is asked for, so that no shadow is black: a fortieth of a light of
+/// intensity 1.
+pub const DEFAULT_AMBIENT_INTENSITY: f32 = 0.025;
+
 /// A perspective camera in world space; up is +y.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {

@@ -3,8 +3,11 @@
 pub mod bust;
 pub mod camera;
 pub mod gltf;
+pub mod shapes;
 pub mod texture_orientation;
 mod texture_seam;
+
+use crate::picture::linear_from_srgb;
 
 /// Everything to draw.
 #[derive(Clone, Debug, Default)]
@@ -121,6 +124,8 @@ pub struct Surface {
     pub normal_scale: f32,
     /// Name of the material in the file.
     pub material_name: Option<String>,
+    /// Sends nothing back and lets nothing through: it only casts shadows.
+    pub is_black: bool,
 }
 
 impl Default for Surface {
@@ -131,6 +136,7 @@ impl Default for Surface {
             normal_map: None,
             normal_scale: 1.0,
             material_name: None,
+            is_black: false,
         }
     }
 }
@@ -144,6 +150,23 @@ pub struct Image {
     pub height: u32,
     /// Rows from the top, four bytes per pixel.
     pub rgba: Vec<u8>,
+}
+
+impl Image {
+    /// Mean of red, green and blue in linear light, of an image whose numbers are sRGB.
+    pub fn mean_linear(&self) -> [f64; 3] {
+        let mut counts = [[0u64; 256]; 3];
+        for texel in self.rgba.chunks_exact(4) {
+            for (channel, counts) in counts.iter_mut().enumerate() {
+                counts[usize::from(texel[channel])] += 1;
+            }
+        }
+        let texels = (self.rgba.len() / 4).max(1) as f64;
+        counts.map(|counts| {
+            let light = |(code, count): (usize, u64)| f64::from(linear_from_srgb(code as u8)) * count as f64;
+            counts.into_iter().enumerate().map(light).sum::<f64>() / texels
+        })
+    }
 }
 
 impl std::fmt::Debug for Image {

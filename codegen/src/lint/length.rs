@@ -21,7 +21,7 @@ pub(crate) fn diffuse_per_mean_free_path(surface_albedo: f64) -> f64 {
 }
 
 pub(super) fn check(material: &Draft<'_>, diagnostics: &mut Vec<Diagnostic>) {
-    let length = material.length;
+    let length = &material.length;
     for (value, span) in length.value.values.into_iter().zip(&length.value.spans) {
         let (what, help) = if value > LONGEST_MM {
             ("long", "lengths are in mm: a value in µm must be divided by 1000, one in nm by 1000000")
@@ -44,7 +44,7 @@ pub(super) fn check(material: &Draft<'_>, diagnostics: &mut Vec<Diagnostic>) {
 }
 
 fn check_parametrization(material: &Draft<'_>, diagnostics: &mut Vec<Diagnostic>) {
-    let length = material.length;
+    let length = &material.length;
     let is_scaled = material.profile.model.dependence().on_length();
     let takes_diffuse = material.profile.model.length() == Length::DiffuseMeanFreePath;
     if !(is_scaled && takes_diffuse && length.kind == Length::MeanFreePath) {

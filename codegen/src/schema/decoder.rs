@@ -42,6 +42,14 @@ impl<T> Given<T> {
         matches!(self, Given::Bad)
     }
 
+    pub(crate) fn map<U>(self, convert: impl FnOnce(T) -> U) -> Given<U> {
+        match self {
+            Given::Absent => Given::Absent,
+            Given::Bad => Given::Bad,
+            Given::Value(value) => Given::Value(convert(value)),
+        }
+    }
+
     fn of(value: Option<T>) -> Self {
         value.map_or(Given::Bad, Given::Value)
     }

@@ -4,19 +4,21 @@ use subsurface_profile::Length;
 
 use crate::diagnostics::Diagnostic;
 use crate::identifier;
-use crate::material::{Coupling, Transmittance};
+use crate::material::{Coupling, SecondLobe, Transmittance};
 use crate::schema::body::Body;
 use crate::schema::choice::choice;
 use crate::schema::decoder::{Decoder, Fields, Given, Triple, head};
 use crate::schema::diffuse::{DiffuseGiven, decode_diffuse};
+use crate::schema::medium::{OrMedium, decode_medium};
 use crate::schema::profile::{ProfileExpression, decode_profile};
 use crate::schema::quantity::{
-    DIFFUSE_MEAN_FREE_PATH, MEAN_FREE_PATH, REFLECTANCE, ROUGHNESS, SURFACE_ALBEDO, THICKNESS, TRANSMISSION,
+    DIFFUSE_MEAN_FREE_PATH, LOBE_WEIGHT, MEAN_FREE_PATH, REFLECTANCE, ROUGHNESS, SURFACE_ALBEDO, THICKNESS,
+    TRANSMISSION,
 };
 use crate::schema::set_file::SET;
 use crate::source::{FileId, Span, Spanned};
 use crate::suggestion::{closest, shortened};
-use crate::syntax::{Document, Entry, Name, Shape};
+use crate::syntax::{Document, Entry, Name, Node, Shape};
 
 /// Version of the grammar of material files that this crate reads.
 pub(crate) const SCHEMA_VERSION: u32 = 1;
@@ -32,13 +34,17 @@ pub(crate) struct MaterialFile {
     pub(crate) name: Spanned<String>,
     pub(crate) base: Given<Spanned<String>>,
     pub(crate) profile: Given<(ProfileExpression, Span)>,
-    pub(crate) length: Given<LengthGiven>,
-    pub(crate) surface_albedo: Given<Triple>,
+    pub(crate) length: Given<OrMedium<LengthGiven>>,
+    pub(crate) surface_albedo: Given<OrMedium<Triple>>,
+    /// Where the medium is given by its coefficients.
+    pub(crate) refractive_index: Given<Spanned<f64>>,
     pub(crate) reflectance_at_normal: Given<Spanned<f64>>,
     pub(crate) roughness: Given<Spanned<f64>>,
     pub(crate) coupling: Given<Coupling>,
+    pub(crate) second_lobe: Given<SecondLobe>,
     pub(crate) diffuse: Given<Spanned<DiffuseGiven>>,
     pub(crate) transmission_strength: Given<Spanned<f64>>,
+    pub(crate) transmission_diffused: Given<bool>,
     pub(crate) transmittance: Given<Spanned<Transmittance>>,
     pub(crate) thin_thickness_mm: Given<Spanned<f64>>,
 }
@@ -53,7 +59,7 @@ pub(crate) struct LengthGiven {
     pub(crate) value: Triple,
 }
 
-const FIELDS: [&str; 12] = [
+const FIELDS: [&str; 14] = [
     "version",
     "name",
     "base",
@@ -61,19 +67,28 @@ const FIELDS: [&str; 12] = [
     "mean_free_path_mm",
     "diffuse_mean_free_path_mm",
     "surface_albedo",
+    "medium",
     "specular",
     "diffuse",
+    "transmission",
     "transmission_strength",
     "transmittance",
     "thin",
 ];
 
 /// Fields that a reader may look for one level higher than they are.
-const GROUPED: [(&str, &str); 4] = [
+const GROUPED: [(&str, &str); 11] = [
     ("reflectance_at_normal", "specular"),
     ("roughness", "specular"),
     ("coupling", "specular"),
+    ("second", "specular"),
+    ("diffused", "transmission"),
     ("thickness_mm", "thin"),
+    ("reduced_scattering_per_mm", "medium"),
+    ("scattering_per_mm", "medium"),
+    ("anisotropy", "medium"),
+    ("absorption_per_mm", "medium"),
+    ("refractive_index", "medium"),
 ];
 
 /// Decodes the file of a material; `None` when nothing in it can be trusted.
@@ -151,11 +166,24 @@ fn decode_fields(
     let length = decode_length(decoder, &fields);
     let surface_albedo = fields
         .optional("surface_albedo", |node| decoder.triple(node, "surface_albedo", RGB, &SURFACE_ALBEDO));
-    let SpecularGiven { reflectance_at_normal, roughness, coupling } = decode_specular(decoder, &fields);
+    let (length, surface_albedo, refractive_index) = match fields.get("medium") {
+        None => (length.map(OrMedium::Value), surface_albedo.map(OrMedium::Value), Given::Absent),
+        Some(entry) => {
+            let key = &entry.key.span;
+            let medium = fields.optional("medium", |node| decode_medium(decoder, key, node));
+            let medium = if is_given_twice(decoder, &fields, key) { Given::Bad } else { medium };
+            let medium = medium.map(Box::new);
+            let index = medium.clone().map(|medium| medium.refractive_index);
+            (medium.clone().map(OrMedium::Medium), medium.map(OrMedium::Medium), index)
+        }
+    };
+    let SpecularGiven { reflectance_at_normal, roughness, coupling, second_lobe } =
+        decode_specular(decoder, &fields);
     let diffuse = fields.optional("diffuse", |node| decode_diffuse(decoder, node));
     let transmission_strength = fields.optional("transmission_strength", |node| {
         decoder.spanned_number(node, "transmission_strength", &TRANSMISSION)
     });
+    let transmission_diffused = decode_transmission(decoder, &fields);
     let transmittance = fields.optional("transmittance", |node| {
         let word = choice(decoder, node, "transmittance", &Transmittance::ALL.map(Transmittance::name))?;
         Some(Spanned::new(Transmittance::from_name(word)?, node.span()))
@@ -170,14 +198,33 @@ fn decode_fields(
         profile,
         length,
         surface_albedo,
+        refractive_index,
         reflectance_at_normal,
         roughness,
         coupling,
+        second_lobe,
         diffuse,
         transmission_strength,
+        transmission_diffused,
         transmittance,
         thin_thickness_mm,
     }
+}
+
+/// Reports what follows from the coefficients of the medium, and is given beside them.
+fn is_given_twice(decoder: &mut Decoder, fields: &Fields<'_>, medium: &Span) -> bool {
+    let mut is_twice = false;
+    for name in ["mean_free_path_mm", "diffuse_mean_free_path_mm", "surface_albedo"] {
+        let Some(entry) = fields.get(name) else { continue };
+        decoder.report(
+            Diagnostic::error(format!("`{name}` follows from `medium`"))
+                .label(entry.key.span.clone(), "given here")
+                .secondary(medium.clone(), "the coefficients say it already")
+                .help("remove one of the two; a material that has this one as its base may override it"),
+        );
+        is_twice = true;
+    }
+    is_twice
 }
 
 fn decode_length(decoder: &mut Decoder, fields: &Fields<'_>) -> Given<LengthGiven> {
@@ -213,6 +260,7 @@ struct SpecularGiven {
     reflectance_at_normal: Given<Spanned<f64>>,
     roughness: Given<Spanned<f64>>,
     coupling: Given<Coupling>,
+    second_lobe: Given<SecondLobe>,
 }
 
 fn decode_specular(decoder: &mut Decoder, fields: &Fields<'_>) -> SpecularGiven {
@@ -221,6 +269,7 @@ fn decode_specular(decoder: &mut Decoder, fields: &Fields<'_>) -> SpecularGiven 
             reflectance_at_normal: Given::Absent,
             roughness: Given::Absent,
             coupling: Given::Absent,
+            second_lobe: Given::Absent,
         };
     };
     let entries = match entry.value.shape() {
@@ -233,11 +282,12 @@ fn decode_specular(decoder: &mut Decoder, fields: &Fields<'_>) -> SpecularGiven 
                 reflectance_at_normal: Given::Bad,
                 roughness: Given::Bad,
                 coupling: Given::Bad,
+                second_lobe: Given::Bad,
             };
         }
     };
     let head = head(None, &entry.value);
-    let known = ["reflectance_at_normal", "roughness", "coupling"];
+    let known = ["reflectance_at_normal", "roughness", "coupling", "second"];
     let inner = decoder.fields("`specular`", head, entries, &known);
     let mut number =
         |name, quantity| inner.optional(name, |node| decoder.spanned_number(node, name, quantity));
@@ -251,7 +301,48 @@ fn decode_specular(decoder: &mut Decoder, fields: &Fields<'_>) -> SpecularGiven 
         let word = choice(decoder, node, "coupling", &Coupling::ALL.map(Coupling::name))?;
         Coupling::ALL.into_iter().find(|coupling| coupling.name() == word)
     });
-    SpecularGiven { reflectance_at_normal, roughness, coupling }
+    let second_lobe = inner.optional("second", |node| decode_second_lobe(decoder, node));
+    SpecularGiven { reflectance_at_normal, roughness, coupling, second_lobe }
+}
+
+/// `second:` of `specular`.
+fn decode_second_lobe(decoder: &mut Decoder, node: &Node<'_>) -> Option<SecondLobe> {
+    const EXAMPLE: &str = "write `second: (roughness: 0.25, weight: 0.3)`";
+    let Shape::Struct(None, entries) = node.shape() else {
+        decoder.wrong_type(node, "second", "named numbers", EXAMPLE);
+        return None;
+    };
+    let head = head(None, node);
+    let fields = decoder.fields("`second`", head.clone(), entries, &["roughness", "weight"]);
+    let mut number =
+        |name, quantity| fields.optional(name, |node| decoder.spanned_number(node, name, quantity));
+    let (roughness, weight) = (number("roughness", &ROUGHNESS), number("weight", &LOBE_WEIGHT));
+    for (field, is_absent) in [("roughness", roughness.is_absent()), ("weight", weight.is_absent())] {
+        if is_absent {
+            decoder.missing("`second`", &head, field, EXAMPLE);
+        }
+    }
+    Some(SecondLobe { roughness: roughness.value()?.value, weight: weight.value()?.value })
+}
+
+fn decode_transmission(decoder: &mut Decoder, fields: &Fields<'_>) -> Given<bool> {
+    fields.optional("transmission", |node| {
+        let Shape::Struct(None, entries) = node.shape() else {
+            decoder.wrong_type(
+                node,
+                "transmission",
+                "named values",
+                "write `transmission: (diffused: true)`",
+            );
+            return None;
+        };
+        let inner = decoder.fields("`transmission`", head(None, node), entries, &["diffused"]);
+        match inner.optional("diffused", |node| decoder.truth(node, "diffused")) {
+            Given::Absent => Some(false),
+            Given::Bad => None,
+            Given::Value(is_diffused) => Some(is_diffused),
+        }
+    })
 }
 
 fn decode_thin(decoder: &mut Decoder, fields: &Fields<'_>) -> Given<Spanned<f64>> {

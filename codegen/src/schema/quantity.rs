@@ -43,6 +43,14 @@ pub(crate) const ROUGHNESS: Quantity = Quantity {
     meaning: "give the perceptual roughness, from 0 (mirror) to 1 (rough)",
 };
 
+pub(crate) const LOBE_WEIGHT: Quantity = Quantity {
+    noun: "weight of the second lobe",
+    unit: "",
+    bounds: Bounds::Unit,
+    kind: "share",
+    meaning: "give the second lobe's share of the highlight, from 0 to 1: 0.15 to 0.3 for oily skin",
+};
+
 pub(crate) const TRANSMISSION: Quantity = Quantity {
     noun: "transmission strength",
     unit: "",
@@ -57,6 +65,38 @@ pub(crate) const THICKNESS: Quantity = Quantity {
     bounds: Bounds::Positive,
     kind: "number",
     meaning: "give the thickness of the sheet in mm: 0.25 for a leaf, 0.1 for paper",
+};
+
+pub(crate) const SCATTERING: Quantity = Quantity {
+    noun: "scattering coefficient",
+    unit: "per mm",
+    bounds: Bounds::NonNegative,
+    kind: "number",
+    meaning: "give the number of scatterings per millimetre, σs or σs′ = (1 - g) σs",
+};
+
+pub(crate) const ABSORPTION: Quantity = Quantity {
+    noun: "absorption coefficient",
+    unit: "per mm",
+    bounds: Bounds::NonNegative,
+    kind: "number",
+    meaning: "give the number of absorptions per millimetre, σa",
+};
+
+pub(crate) const ANISOTROPY: Quantity = Quantity {
+    noun: "anisotropy",
+    unit: "",
+    bounds: Bounds::Between(-1, 1),
+    kind: "number",
+    meaning: "give the mean cosine of the scattering angle: 0 for isotropic, 0.8 for tissue",
+};
+
+pub(crate) const REFRACTIVE_INDEX: Quantity = Quantity {
+    noun: "refractive index",
+    unit: "",
+    bounds: Bounds::Between(1, 2),
+    kind: "number",
+    meaning: "give the index of the medium over that of what is outside: 1.33 for water, 1.4 for tissue, 1.5 for stone",
 };
 
 /// Why a number is refused: the message and the label.

@@ -65,7 +65,7 @@ impl Domain {
     fn of(field: &Field) -> Self {
         match field.quantity.bounds {
             Bounds::Positive | Bounds::NonNegative => Self::Positive,
-            Bounds::Any | Bounds::Unit => Self::Any,
+            Bounds::Any | Bounds::Unit | Bounds::Between(..) => Self::Any,
         }
     }
 }

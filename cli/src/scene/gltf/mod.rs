@@ -121,6 +121,7 @@ impl Loader<'_> {
             normal_map,
             normal_scale: normal.map_or(1.0, |info| info.scale()),
             material_name: material.name().map(str::to_owned),
+            is_black: false,
         })
     }
 

@@ -1,0 +1,221 @@
+//! `subsurface export`.
+
+use super::material_set;
+use super::render::{DEFAULT_MATERIAL, material_of_object};
+use super::view::{MeshArguments, ViewArguments, load_scene};
+use crate::failure::{Explain, Failure, warning};
+use crate::mitsuba::{Boundary, CHANNELS, Exported, Medium, flaws, ply, xml};
+use crate::picture::file::write_atomically;
+use crate::progress::Spinner;
+use crate::say;
+use crate::scene::camera::{Light, Size};
+use crate::scene::{Object, Surface};
+use clap::{Args, ValueEnum};
+use std::fmt;
+use std::path::PathBuf;
+use subsurface_codegen::Material;
+
+/// Arguments of `subsurface export`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  subsurface export --to mitsuba --scene ellipsoid --light=-0.5,-0.3,-0.8 --ambient 0 --size 96x96 --out truth
+  subsurface export --to mitsuba --mesh head.glb --boundary rough --light 0,-1,0,0 --ambient 1 --out truth
+  python3 reference/pictures/render.py truth --samples 64 --seeds 8 --out truth.exr")]
+pub struct ExportArguments {
+    /// Which path tracer.
+    #[arg(long, value_enum, value_name = "PROGRAM")]
+    pub to: Program,
+    /// Directory of materials: one .ron file each, profiles in DIR/profiles.
+    #[arg(long, value_name = "DIR", default_value = material_set::DEFAULT_DIRECTORY)]
+    pub materials: PathBuf,
+    /// What is drawn.
+    #[command(flatten)]
+    pub mesh: MeshArguments,
+    /// Material of the set.
+    #[arg(long, value_name = "NAME", default_value = DEFAULT_MATERIAL)]
+    pub material: String,
+    /// Size of the picture in pixels.
+    #[arg(long, value_name = "WxH", default_value = "128x128")]
+    pub size: Size,
+    /// Camera and lights.
+    #[command(flatten)]
+    pub view: ViewArguments,
+    /// What lies between the medium and the air.
+    #[arg(long, value_enum, value_name = "KIND", default_value_t = BoundaryKind::Auto)]
+    pub boundary: BoundaryKind,
+    /// Folder for the scene, created if missing: red.xml, green.xml, blue.xml and a PLY file per object.
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+}
+
+/// Path tracers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Program {
+    /// Mitsuba 3, <https://mitsuba-renderer.org>.
+    Mitsuba,
+}
+
+/// What lies between a medium and the air.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum BoundaryKind {
+    /// `rough` where all light is ambient, else `matched`: light of one direction cannot be sampled through a rough one.
+    #[default]
+    Auto,
+    /// Nothing: no highlights, and no refraction.
+    Matched,
+    /// A rough dielectric with the material's roughness, and the index that its reflectance at normal incidence says.
+    Rough,
+}
+
+/// What a path tracer's scene has otherwise than the picture.
+#[derive(Clone, Debug, PartialEq, Eq)]
+enum Difference {
+    NoHighlights,
+    Black,
+    MeanAlbedo { object: String },
+    NormalMap { object: String },
+    Thin { material: String },
+    GuessedEntry { material: String },
+}
+
+impl fmt::Display for Difference {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoHighlights => {
+                write!(f, "the exported boundary is matched: without highlights, and without refraction")
+            }
+            Self::Black => {
+                write!(
+                    f,
+                    "light of one direction cannot be sampled through a rough boundary: it will be missing"
+                )
+            }
+            Self::MeanAlbedo { object } => {
+                write!(f, "`{object}` has a texture of its surface albedo: its mean is exported")
+            }
+            Self::NormalMap { object } => write!(f, "the normal map of `{object}` is not exported"),
+            Self::Thin { material } => {
+                write!(f, "`{material}` is a thin sheet: what its mesh bounds is exported as filled")
+            }
+            Self::GuessedEntry { material } => write!(
+                f,
+                "the profile of `{material}` does not say how light enters: perpendicular entry is taken"
+            ),
+        }
+    }
+}
+
+impl Explain for Difference {
+    fn help(&self) -> Option<String> {
+        Some(
+            match self {
+                Self::NoHighlights => {
+                    "compare with a picture whose material has `reflectance_at_normal: 0`, or export with \
+                     --boundary rough and ambient light"
+                }
+                Self::Black => "use --boundary matched, or ambient light alone: --light 0,-1,0,0 --ambient 1",
+                Self::MeanAlbedo { .. } | Self::NormalMap { .. } => {
+                    "compare with a picture of the same mesh without it"
+                }
+                Self::Thin { .. } => "give the mesh the sheet's thickness, and the material no `thin`",
+                Self::GuessedEntry { .. } => {
+                    "name a published profile, or `diffuse: Chandrasekhar(entry: …)`"
+                }
+            }
+            .into(),
+        )
+    }
+}
+
+/// Runs the command.
+pub fn run(arguments: &ExportArguments) -> Result<(), Failure> {
+    let materials = material_set::compile(&arguments.materials)?;
+    let fallback = material_set::number(&materials, &arguments.material)?;
+    let scene = load_scene(&arguments.mesh)?;
+    let camera = arguments.view.camera(&scene, arguments.size)?;
+    let lights: Vec<Light> =
+        arguments.view.lights().into_iter().filter(|light| light.intensity > 0.0).collect();
+    std::fs::create_dir_all(&arguments.out).map_err(|reason| {
+        let message = format!("cannot create {}: {reason}", arguments.out.display());
+        Failure::new(message, "name a folder that may be written to with --out DIR")
+    })?;
+    for flaw in flaws(&scene) {
+        eprintln!("{}\n", warning(&flaw));
+    }
+    let mut differences = Vec::new();
+    let mut exported = Vec::new();
+    let spinner = Spinner::new("writing meshes");
+    let numbers = material_of_object(&scene, &materials, fallback);
+    for (index, (object, number)) in scene.objects.iter().zip(numbers).enumerate() {
+        let file = format!("object_{index}.ply");
+        write_atomically(&arguments.out.join(&file), &ply(&object.mesh))?;
+        let material = &materials.set.materials[number as usize];
+        let medium = (!object.surface.is_black)
+            .then(|| medium(object, material, arguments.boundary, &lights, &mut differences));
+        exported.push(Exported { file, medium });
+    }
+    drop(spinner);
+    for (index, difference) in differences.iter().enumerate() {
+        if !differences[..index].contains(difference) {
+            eprintln!("{}\n", warning(difference));
+        }
+    }
+    for (channel, name) in CHANNELS.into_iter().enumerate() {
+        let path = arguments.out.join(name).with_extension("xml");
+        let text = xml(channel, &exported, &camera, &lights, arguments.view.ambient, arguments.size);
+        write_atomically(&path, text.as_bytes())?;
+        say!("{}", path.display());
+    }
+    Ok(())
+}
+
+fn medium(
+    object: &Object,
+    material: &Material,
+    boundary: BoundaryKind,
+    lights: &[Light],
+    differences: &mut Vec<Difference>,
+) -> (Medium, Boundary) {
+    let name = || material.name.clone();
+    if material.thin_thickness_mm.is_some() {
+        differences.push(Difference::Thin { material: name() });
+    }
+    if material.profile.model.entry().is_none() {
+        differences.push(Difference::GuessedEntry { material: name() });
+    }
+    if object.surface.normal_map.is_some() {
+        differences.push(Difference::NormalMap { object: object.name.clone() });
+    }
+    if object.surface.base_colour.is_some() {
+        differences.push(Difference::MeanAlbedo { object: object.name.clone() });
+    }
+    let own = Boundary::of(material);
+    let is_rough = match boundary {
+        BoundaryKind::Auto => lights.is_empty(),
+        BoundaryKind::Matched => false,
+        BoundaryKind::Rough => true,
+    };
+    match (is_rough, own) {
+        (_, Boundary::Matched) => (),
+        (false, _) => differences.push(Difference::NoHighlights),
+        (true, _) if !lights.is_empty() => differences.push(Difference::Black),
+        (true, _) => (),
+    }
+    let boundary = if is_rough { own } else { Boundary::Matched };
+    (Medium::of(material, surface_albedo(&object.surface, material), boundary), boundary)
+}
+
+/// The surface albedo that a picture has in the mean.
+fn surface_albedo(surface: &Surface, material: &Material) -> [f64; 3] {
+    let [red, green, blue, _] = surface.base_colour_factor;
+    let factor = [red, green, blue];
+    let texture = surface.base_colour.as_ref().map(crate::scene::Image::mean_linear);
+    match texture {
+        None if factor == [1.0; 3] => material.surface_albedo,
+        texture => {
+            let texture = texture.unwrap_or([1.0; 3]);
+            [0, 1, 2].map(|channel: usize| (texture[channel] * f64::from(factor[channel])).clamp(0.0, 1.0))
+        }
+    }
+}

@@ -1,0 +1,17 @@
+//! Scenes as Mitsuba 3 reads them.
+//!
+//! Each object is a medium inside its own mesh: homogeneous, scattering isotropically. One file per colour channel, since
+//! a path through a medium has one mean free path.
+
+mod closed;
+mod medium;
+mod ply;
+mod scene;
+
+pub use closed::{Flaw, flaws};
+pub use medium::{Boundary, Medium};
+pub use ply::ply;
+pub use scene::{CHANNELS, Exported, xml};
+
+/// Millimetres, in which the files are, per metre, in which scenes are.
+const MILLIMETRES_PER_METRE: f32 = 1000.0;
