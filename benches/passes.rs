@@ -9,8 +9,8 @@ use std::time::{Duration, Instant};
 use criterion::Criterion;
 use subsurface::presets::{self, Material};
 use subsurface::runtime::{
-    Bounds, Camera, DirectionalLight, Extent, Frame, FrameError, Geometry, LoadedKernel, Object, Renderer,
-    RendererDescriptor, SurfaceDescriptor, Target, Vertex, wgpu,
+    Bounds, Camera, DirectionalLight, Extent, Frame, FrameError, Geometry, Light, LoadedKernel, Object,
+    Renderer, RendererDescriptor, SurfaceDescriptor, Target, Vertex, wgpu,
 };
 
 const SIZE: Extent = Extent::new(1280, 720);
@@ -49,6 +49,9 @@ impl Gpu {
 }
 
 /// A sphere of radius 0.1 m with 131,072 triangles.
+const SUN: DirectionalLight =
+    DirectionalLight { direction: [-1.0, -1.0, -0.5], irradiance: [3.0; 3], angular_diameter_radians: 0.0 };
+
 fn sphere() -> (Vec<Vertex>, Vec<u32>) {
     const RINGS: u32 = 256;
     let point = |ring: u32, sector: u32| {
@@ -68,7 +71,7 @@ fn sphere() -> (Vec<Vertex>, Vec<u32>) {
 fn frame(taps: u32) -> Frame<'static> {
     let camera = Camera { position: [0.0, 0.0, 0.5], fov_y_radians: 0.4, ..Default::default() };
     Frame {
-        lights: &[DirectionalLight { direction: [-1.0, -1.0, -0.5], irradiance: [3.0; 3] }],
+        lights: &[Light::Directional(SUN)],
         ambient_irradiance: [0.05; 3],
         taps: Some(taps),
         ..Frame::new(camera, Bounds::new([0.0; 3], 0.11), 1000.0)

@@ -28,7 +28,7 @@ pub(crate) fn draw() -> Result<Vec<u8>, Box<dyn std::error::Error>> {
     let mut renderer = Renderer::new(&device, &kernel, &RendererDescriptor::default())?;
     let surface = SurfaceDescriptor { material: Some(Material::Jade.number()), ..Default::default() };
     let objects = [Object::new(&device, &queue, ball(&device), &surface)?];
-    let lights = [DirectionalLight { direction: [1.0, -0.7, -0.5], ..Default::default() }];
+    let lights = [DirectionalLight { direction: [1.0, -0.7, -0.5], ..Default::default() }.into()];
     let camera = Camera { position: [0.0, 0.0, 0.3], ..Default::default() };
     let frame = Frame { lights: &lights, ..Frame::new(camera, Bounds::new([0.0; 3], 0.06), 1000.0) };
 

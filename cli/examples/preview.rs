@@ -7,7 +7,8 @@ use glam::{Mat3, Vec3};
 use std::error::Error;
 use std::path::Path;
 use subsurface_cli::picture::{DisplayPicture, write_png};
-use subsurface_cli::scene::camera::{Camera, Light, Size};
+use subsurface_cli::scene::camera::{Camera, Size};
+use subsurface_cli::scene::light::Light;
 use subsurface_cli::scene::{Object, Scene, bust, gltf};
 
 const VIEW: Size = Size { width: 480, height: 600 };
@@ -92,7 +93,10 @@ fn shade(object: &Object, triangle: &[u32], weights: Vec3, inside: bool) -> [u8;
     let mesh = &object.mesh;
     let [a, b, c] = [0, 1, 2].map(|k| Vec3::from(mesh.normals[triangle[k] as usize]));
     let normal = (a * weights.x + b * weights.y + c * weights.z).normalize_or_zero();
-    let light = Vec3::from(Light::DEFAULT[0].direction);
+    let light = match Light::DEFAULT[0] {
+        Light::Directional(light) => Vec3::from(light.direction),
+        Light::Point(_) | Light::Spot(_) => Vec3::NEG_Y,
+    };
     let grey = (0.15 + 0.1 * normal.y + 0.75 * normal.dot(-light).max(0.0)).clamp(0.0, 1.0).powf(1.0 / 2.2);
     let colour = object.surface.base_colour.as_ref().map_or([230; 3], |image| {
         let uv = (0..3).map(|k| mesh.texture_coordinates[triangle[k] as usize]).zip(weights.to_array());

@@ -18,6 +18,8 @@ pub mod kernel_bench;
 pub mod mitsuba;
 pub mod picture;
 #[cfg(feature = "analysis")]
+pub mod picture_bench;
+#[cfg(feature = "analysis")]
 pub mod plot;
 pub mod progress;
 pub mod scene;

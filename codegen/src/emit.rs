@@ -9,7 +9,7 @@ use crate::compose::Glue;
 use crate::curves::Curves;
 use crate::dispatch_text::emit_dispatch;
 use crate::identifier::screaming_case;
-use crate::material::{Material, MaterialSet};
+use crate::material::{Material, MaterialSet, Transmittance};
 use crate::material_row::{emit_row, row};
 use crate::mixture_text::{emit_mixtures, emit_shape};
 use crate::model_row::{ModelsInUse, Shared, constant};
@@ -143,6 +143,14 @@ fn emit_features(text: &mut String, set: &MaterialSet) {
             "Materials have a second specular lobe.",
             "SECOND_LOBES",
             any(|material| material.second_lobe.is_some()),
+        ),
+        ("Materials are sheets.", "THIN_SHEETS", any(|material| material.thin_thickness_mm.is_some())),
+        (
+            "What comes through is what the profile says.",
+            "PROFILES_TRANSMIT",
+            any(|material| {
+                material.transmittance == Transmittance::Profile && material.thin_thickness_mm.is_none()
+            }),
         ),
         (
             "Light that came through diffuses.",

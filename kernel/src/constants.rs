@@ -191,8 +191,8 @@ constants! {
     /// must not outshine all others.
     LARGEST_WEIGHT: F32(f64) = 1e4;
 
-    /// Lights that one frame can hold.
-    LIGHT_CAPACITY: U32(u32) = 4;
+    /// `layer` of a light without a shadow map.
+    NO_SHADOW_MAP: U32(u32) = 0xffff;
 }
 
 /// Pixels of a block.

@@ -43,13 +43,18 @@ impl Bounds {
 }
 
 impl Camera {
-    /// Clip space from view space for a frame of this aspect, with clip planes around `bounds`.
+    /// Clip space from view space for a frame of this aspect, its near plane before `bounds`.
+    ///
+    /// Where the camera stands within the bounds, that is at a hundredth of the distance to its target, or at a thousandth
+    /// of the bounds: what is near is not cut off because something else is a kilometre away. Depth is reversed, 1 at the
+    /// near plane and 0 infinitely far: as precise far as near, where the device's depth is a float.
     pub fn projection(&self, aspect: f32, bounds: &Bounds) -> [[f32; 4]; 4] {
-        let distance = Vec3::from(self.position).distance(Vec3::from(bounds.centre));
-        let far = distance + bounds.radius;
-        // A camera inside the bounds still needs a near plane; a thousandth of the far one keeps depth precise.
-        let near = (distance - bounds.radius).max(far * 1e-3);
-        glam::camera::rh::proj::directx::perspective(self.fov_y_radians, aspect, near, far).to_cols_array_2d()
+        let [position, target, centre] = [self.position, self.target, bounds.centre].map(Vec3::from);
+        let distance = position.distance(centre);
+        let within = (1e-2 * position.distance(target)).min(1e-3 * (distance + bounds.radius));
+        let near = (distance - bounds.radius).max(within);
+        glam::camera::rh::proj::directx::perspective_infinite_reverse(self.fov_y_radians, aspect, near)
+            .to_cols_array_2d()
     }
 
     /// View space from world space.

@@ -2,7 +2,7 @@
 
 use crate::camera::{Bounds, Camera};
 use crate::extent::Extent;
-use crate::light::DirectionalLight;
+use crate::light::{Light, LightRanks};
 use crate::pass::composite::CompositeSettings;
 use crate::view::SubsurfaceView;
 
@@ -11,7 +11,7 @@ use crate::view::SubsurfaceView;
 /// ```
 /// use subsurface_runtime::{Bounds, Camera, DirectionalLight, Frame};
 ///
-/// let lights = [DirectionalLight::default()];
+/// let lights = [DirectionalLight::default().into()];
 /// let frame = Frame { lights: &lights, ..Frame::new(Camera::default(), Bounds::new([0.0; 3], 0.2), 1000.0) };
 /// assert_eq!((frame.taps, frame.frame_index, frame.transmission), (None, 0, 1.0));
 /// ```
@@ -19,10 +19,15 @@ use crate::view::SubsurfaceView;
 pub struct Frame<'a> {
     /// The camera.
     pub camera: Camera,
-    /// Directional lights, [`LIGHT_CAPACITY`](crate::LIGHT_CAPACITY) at most; by default none.
-    pub lights: &'a [DirectionalLight],
+    /// Lights, any number; by default none. The [`SHADOW_MAPS`](crate::SHADOW_MAPS) most important ones cast shadows and
+    /// shine through what is thin.
+    pub lights: &'a [Light],
     /// Irradiance that comes from everywhere alike, linear red, green, blue; by default 0.
     pub ambient_irradiance: [f32; 3],
+    /// Factor on the environment that the renderer was given; by default 1.
+    pub environment_intensity: f32,
+    /// Turn of the environment about the y axis, in radians; by default 0.
+    pub environment_turn_radians: f32,
     /// Factor on every material's transmission: 1, the default, or 0 for none.
     pub transmission: f32,
     /// A sphere around all objects.
@@ -40,12 +45,15 @@ pub struct Frame<'a> {
 }
 
 impl Frame<'_> {
-    /// A frame without light: set [`lights`](Self::lights) or [`ambient_irradiance`](Self::ambient_irradiance).
+    /// A frame without light: set [`lights`](Self::lights) or [`ambient_irradiance`](Self::ambient_irradiance), or give
+    /// the renderer an environment.
     pub fn new(camera: Camera, bounds: Bounds, millimetres_per_world_unit: f32) -> Self {
         Self {
             camera,
             lights: &[],
             ambient_irradiance: [0.0; 3],
+            environment_intensity: 1.0,
+            environment_turn_radians: 0.0,
             transmission: 1.0,
             bounds,
             millimetres_per_world_unit,
@@ -53,6 +61,13 @@ impl Frame<'_> {
             frame_index: 0,
             composite: CompositeSettings::default(),
         }
+    }
+
+    /// Indices of the lights, the most important first; without what earlier frames decided.
+    pub fn light_ranks(&self) -> Vec<usize> {
+        let mut ranks = LightRanks::default();
+        ranks.update(self.lights, &self.bounds);
+        ranks.order().to_vec()
     }
 
     /// How the subsurface pass sees this frame at a size of `size`.

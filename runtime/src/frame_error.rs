@@ -22,14 +22,6 @@ pub enum FrameError {
         /// The pass.
         pass: &'static str,
     },
-    /// More lights than a frame can hold.
-    #[error("a frame holds {capacity} lights at most, not {found}: leave the weakest out")]
-    Lights {
-        /// Lights that were given.
-        found: usize,
-        /// Lights that a frame holds.
-        capacity: usize,
-    },
     /// The output has another size than the inputs.
     #[error(
         "{pass} writes to a texture of {found} pixels, and its inputs have {expected}: give one of that size"

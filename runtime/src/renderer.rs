@@ -1,11 +1,13 @@
 //! All four passes in order.
 
 use crate::bind_error::BindError;
+use crate::environment::Environment;
 use crate::extent::Extent;
 use crate::frame::Frame;
 use crate::frame_error::FrameError;
 use crate::gbuffer::GBuffer;
 use crate::label::Label;
+use crate::light::LightRanks;
 use crate::loaded_kernel::LoadedKernel;
 use crate::object::Object;
 use crate::pass::PassError;
@@ -70,7 +72,7 @@ impl Default for RendererDescriptor<'_> {
 /// let objects = [Object::new(device, queue, geometry, &surface)?];
 ///
 /// renderer.resize(device, Extent::new(1280, 720))?;
-/// let lights = [DirectionalLight::default()];
+/// let lights = [DirectionalLight::default().into()];
 /// let frame = Frame { lights: &lights, ..Frame::new(Camera::default(), Bounds::new([0.0; 3], 0.2), 1000.0) };
 /// renderer.prepare(queue, &frame)?;
 /// let mut encoder = device.create_command_encoder(&Default::default());
@@ -90,6 +92,7 @@ pub struct Renderer {
     /// Pass 4.
     pub composite: CompositePass,
     label: Label,
+    ranks: LightRanks,
     targets: Option<(GBuffer, Target)>,
 }
 
@@ -140,7 +143,15 @@ impl Renderer {
             &CompositeDescriptor { label: composite, format, pipeline_cache, timestamps: timestamps(3) },
         );
         let label = Label::new(descriptor.label, NAME);
-        Ok(Self { shadow, gbuffer, subsurface, composite, label, targets: None })
+        Ok(Self {
+            shadow,
+            gbuffer,
+            subsurface,
+            composite,
+            label,
+            ranks: LightRanks::default(),
+            targets: None,
+        })
     }
 
     /// Takes another kernel, such as one whose materials were edited; call [`prepare`](Self::prepare) before the next
@@ -155,6 +166,19 @@ impl Renderer {
         }
         self.subsurface.set_kernel(device, kernel)?;
         self.gbuffer.set_kernel(device, kernel)
+    }
+
+    /// Lights all objects from all around too, or no more; [`Frame`] says how bright it is and how it is turned.
+    ///
+    /// # Errors
+    /// As of [`new`](Self::new).
+    pub fn set_environment(&mut self, environment: Option<Environment>) -> Result<(), PassError> {
+        self.gbuffer.set_environment(environment)
+    }
+
+    /// How important the lights of the last frame are that was prepared.
+    pub fn light_ranks(&self) -> &LightRanks {
+        &self.ranks
     }
 
     /// Makes targets and bindings anew if `size` changed.
@@ -186,18 +210,22 @@ impl Renderer {
     /// Uploads this frame's parameters.
     ///
     /// # Errors
-    /// No [`resize`](Self::resize) came before, or more lights than a frame can hold.
+    /// No [`resize`](Self::resize) came before.
     pub fn prepare(&mut self, queue: &wgpu::Queue, frame: &Frame<'_>) -> Result<(), FrameError> {
         let Some((targets, _)) = &self.targets else { return Err(FrameError::NotResized) };
         let size = targets.size();
-        self.shadow.prepare(queue, frame.lights, &frame.bounds)?;
+        self.ranks.update(frame.lights, &frame.bounds);
+        self.shadow.prepare(queue, frame.lights, &self.ranks, &frame.bounds);
         self.gbuffer.prepare(
             queue,
             &GBufferView {
                 size,
                 camera: &frame.camera,
                 lights: frame.lights,
+                ranks: Some(&self.ranks),
                 ambient_irradiance: frame.ambient_irradiance,
+                environment_intensity: frame.environment_intensity,
+                environment_turn_radians: frame.environment_turn_radians,
                 transmission: frame.transmission,
                 bounds: frame.bounds,
                 millimetres_per_world_unit: frame.millimetres_per_world_unit,

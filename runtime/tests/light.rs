@@ -10,8 +10,8 @@ use gpu::{Gpu, compile};
 use subsurface_profile::single_scattering_albedo::Entry;
 use subsurface_profile::{Channel, HalfSpace, Medium, Model, Slab};
 use subsurface_runtime::{
-    Bounds, Camera, CompositeSettings, DirectionalLight, Extent, Frame, Geometry, LoadedKernel, Object,
-    Renderer, RendererDescriptor, SurfaceDescriptor, Target, TexturePixels, Vertex, wgpu,
+    Bounds, Camera, CompositeSettings, DirectionalLight, Extent, Frame, Geometry, Light, LoadedKernel,
+    Object, Renderer, RendererDescriptor, SurfaceDescriptor, Target, TexturePixels, Vertex, wgpu,
 };
 
 /// Odd: a pixel is in the very middle.
@@ -127,20 +127,18 @@ impl<'a> Scene<'a> {
 
     /// The middle of the frame, seen from +z: irradiance, and what is not scattered.
     fn middle(&mut self, towards_light: [f64; 3], bounds: Bounds) -> [Texel; 2] {
-        let light =
-            DirectionalLight { direction: towards_light.map(|x| -x as f32), irradiance: [PI as f32; 3] };
-        let [irradiance, unscattered, _] = self.lit(&[light], 0.0, bounds);
+        let light = DirectionalLight { direction: towards_light.map(|x| -x as f32), ..Default::default() };
+        let [irradiance, unscattered, _] = self.lit(&[light.into()], 0.0, bounds);
         [irradiance, unscattered]
     }
 
     /// Radiance in the middle that is diffuse, and that is not, under a light of irradiance π or under light of radiance 1
     /// from everywhere.
     fn radiance(&mut self, towards_light: Option<[f64; 3]>) -> [[f64; 3]; 2] {
-        let light = |towards: [f64; 3]| DirectionalLight {
-            direction: towards.map(|x| -x as f32),
-            irradiance: [PI as f32; 3],
+        let light = |towards: [f64; 3]| -> Light {
+            DirectionalLight { direction: towards.map(|x| -x as f32), ..Default::default() }.into()
         };
-        let lights: Vec<DirectionalLight> = towards_light.map(light).into_iter().collect();
+        let lights: Vec<Light> = towards_light.map(light).into_iter().collect();
         let ambient = if lights.is_empty() { PI as f32 } else { 0.0 };
         let [_, unscattered, picture] = self.lit(&lights, ambient, Bounds::new([0.0; 3], 0.1));
         let unscattered = [0, 1, 2].map(|channel: usize| unscattered[channel]);
@@ -148,7 +146,7 @@ impl<'a> Scene<'a> {
     }
 
     /// The middle of the frame, seen from +z: irradiance, what is not scattered, and the picture.
-    fn lit(&mut self, lights: &[DirectionalLight], ambient: f32, bounds: Bounds) -> [Texel; 3] {
+    fn lit(&mut self, lights: &[Light], ambient: f32, bounds: Bounds) -> [Texel; 3] {
         let camera = Camera { position: [0.0, 0.0, 0.2], fov_y_radians: 0.05, ..Default::default() };
         let frame = Frame {
             lights,
@@ -562,9 +560,8 @@ fn diffusing_what_comes_through_changes_nothing_where_all_is_alike() {
         };
         let picture = |text: &str| {
             let mut scene = Scene::new(&gpu, text, &[block([0.15, 0.15, 2e-3])]);
-            let light =
-                DirectionalLight { direction: behind(40.0).map(|x| -x as f32), irradiance: [PI as f32; 3] };
-            let [irradiance, _, picture] = scene.lit(&[light], 0.0, Bounds::new([0.0; 3], 0.25));
+            let light = DirectionalLight { direction: behind(40.0).map(|x| -x as f32), ..Default::default() };
+            let [irradiance, _, picture] = scene.lit(&[light.into()], 0.0, Bounds::new([0.0; 3], 0.25));
             (irradiance[0], picture)
         };
         let (_, direct) = picture(&fields(""));

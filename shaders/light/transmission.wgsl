@@ -1,4 +1,4 @@
-// uses: gather/{channel, material, profile}, lib/{slab, vogel_disc}, light/{directional_light, lit_surface}; needs: shadow_maps
+// uses: gather/{channel, material, profile}, lib/{slab, vogel_disc}, light/{light, lit_surface}, the material set; needs: shadow_maps
 
 // Light that enters on the far side of an object and leaves on this one. How far it travels in between, the light's
 // shadow map says; what is left of it, the material's law.
@@ -24,36 +24,43 @@ fn thickness_between(way_mm: f32, moved_mm: f32, facing_away: f32, parallel: f32
     return mix(along_light, across_slab, parallel);
 }
 
-/// Share of the light that enters on the far side which comes through: the mean transmittance around the point.
+/// Share of the light that enters on the far side which comes through: the mean transmittance around the point, where
+/// that `is_wanted`.
 fn transmitted_share(
+    is_wanted: bool,
     light: Light,
-    layer: u32,
+    towards: vec3f,
     world_position: vec3f,
     normal: vec3f,
     surface: MaterialSurface,
     profiles: ChannelProfiles,
     surface_albedo: vec3f,
 ) -> vec3f {
-    let facing_away = max(-dot(normal, light.towards_light), 0.0);
-    let moved_mm = light.thickness_normal_offset * light.millimetres_per_world_unit;
-    let inside = light.shadow_from_world * vec4f(world_position - light.thickness_normal_offset * normal, 1.0);
+    let facing_away = max(-dot(normal, towards), 0.0);
+    // A texel's neighbours, and half the disc: a rim as round as that stays outside.
+    let texel = 2.0 * map_place(light, world_position).half_width / f32(textureDimensions(shadow_maps).x);
+    let moved = 1.5 * texel + 0.5 * light.thickness_filter_radius;
+    let inside = world_position - moved * normal;
     // A disc in the shaded face, not across the light: there a slab has one thickness.
     let axis = select(vec3f(0.0, 1.0, 0.0), vec3f(1.0, 0.0, 0.0), abs(normal.y) > 0.9);
-    let across = normalize(cross(normal, axis));
+    let across = light.thickness_filter_radius * normalize(cross(normal, axis));
     let along = cross(normal, across);
-    let radius = light.thickness_filter_radius;
-    let step_across = (light.shadow_from_world * vec4f(radius * across, 0.0)).xyz;
-    let step_along = (light.shadow_from_world * vec4f(radius * along, 0.0)).xyz;
-    let is_slab = surface.slab_mean_free_path_mm.r > 0.0;
+    // A ray's way is longer than that along the axis.
+    let per_axis = light.millimetres_per_world_unit / max(-dot(towards, light.forward), 0.05);
     var through = vec3f(0.0);
     var thickness_mm = 0.0;
     var seen = 0.0;
-    for (var tap = 0u; tap < THICKNESS_TAPS; tap += 1u) {
-        let offset = vogel_disc(tap, THICKNESS_TAPS);
-        let point = inside.xyz + offset.x * step_across + offset.y * step_along;
-        let lit = lit_surface(shadow_maps, point.xy, layer);
-        let way_mm = (point.z - lit.depth) * light.shadow_range_mm;
-        let parallel = clamp(-dot(lit_normal(light, lit), normal), 0.0, 1.0);
+    var direction = vec2f(1.0, 0.0);
+    // Software drivers run both sides of a branch, but no more of a loop than there is to do.
+    let taps = select(0u, THICKNESS_TAPS, is_wanted);
+    for (var tap = 0u; tap < taps; tap += 1u) {
+        let offset = vogel_radius(tap, THICKNESS_TAPS) * direction;
+        direction = next_vogel_direction(direction);
+        let place = map_place(light, inside + offset.x * across + offset.y * along);
+        let lit = lit_surface(shadow_maps, light, place.coordinate);
+        let way_mm = (place.distance - lit.distance) * per_axis;
+        let parallel = clamp(-dot(lit_normal(light, lit, place.coordinate), normal), 0.0, 1.0);
+        let moved_mm = moved * light.millimetres_per_world_unit;
         let found_mm = thickness_between(way_mm, moved_mm, facing_away, parallel);
         // Where the map saw nothing, nothing comes through: what was not measured does not glow.
         let counts = select(0.0, 1.0, lit.is_seen);
@@ -61,10 +68,12 @@ fn transmitted_share(
         thickness_mm += counts * found_mm;
         seen += counts;
     }
-    if is_slab {
-        return through / f32(THICKNESS_TAPS);
+    through /= f32(THICKNESS_TAPS);
+    if !PROFILES_TRANSMIT {
+        return through;
     }
     // The profile's integral is dear: once, at the mean.
     let mean_mm = thickness_mm / max(seen, 1.0);
-    return profile_transmittance(profiles, surface_albedo, mean_mm) * (seen / f32(THICKNESS_TAPS));
+    let of_profile = profile_transmittance(profiles, surface_albedo, mean_mm) * (seen / f32(THICKNESS_TAPS));
+    return select(of_profile, through, surface.slab_mean_free_path_mm.r > 0.0);
 }

@@ -1,19 +1,19 @@
-// uses: gather/input, kernel/constants, lib/{angle, medium_angles, numeric_limits, object_transform, slab}, light/{coupling, directional_light, normal_map, shadow, specular_surface, transmission}, the material set
+// uses: gather/input, kernel/constants, lib/{angle, medium_angles, noise, numeric_limits, object_transform, slab}, light/{coupling, environment, light, normal_map, shadow, specular_surface, transmission}, the material set
 
-/// Camera and lights of one frame.
+/// Camera and light from everywhere of one frame.
 struct GBufferFrame {
     /// Clip space from world space.
     clip_from_world: mat4x4f,
     /// Position of the camera in world space.
     camera_position: vec3f,
-    /// Lights in use, at most LIGHT_CAPACITY.
+    /// Lights in use.
     light_count: u32,
     /// Irradiance that comes from everywhere alike, red, green, blue.
     ambient_irradiance: vec3f,
     /// Factor on every material's transmission: 1, or 0 for none.
     transmission: f32,
-    /// The first `light_count` of them shine.
-    lights: array<Light, LIGHT_CAPACITY>,
+    /// Light that comes from everywhere, but not alike.
+    environment: Environment,
 }
 
 /// What one object adds to its material, or has instead of one.
@@ -37,9 +37,16 @@ struct GBufferObject {
 /// Surface albedo below which light that came through leaves in part where it arrives.
 const LEAST_DIFFUSING_ALBEDO: f32 = 0.02;
 
+/// Whether there is light from all around; the pipeline says it.
+override HAS_ENVIRONMENT: bool = false;
+
 @group(2) @binding(0) var<uniform> frame: GBufferFrame;
 @group(2) @binding(1) var shadow_maps: texture_depth_2d_array;
 @group(2) @binding(2) var shadow_comparison: sampler_comparison;
+/// The first `light_count` of them shine.
+@group(2) @binding(3) var<storage, read> lights: array<Light>;
+@group(2) @binding(4) var environment_radiance: texture_2d<f32>;
+@group(2) @binding(5) var environment_sampler: sampler;
 
 @group(3) @binding(0) var<uniform> object: GBufferObject;
 @group(3) @binding(1) var surface_albedo_texture: texture_2d<f32>;
@@ -95,6 +102,11 @@ fn gbuffer_fragment(interpolated: GBufferInterpolated, @builtin(front_facing) fr
     );
     let normal = select(smooth_normal, bent_normal, object.normal_scale > 0.0);
     let towards_camera = normalize(frame.camera_position - interpolated.world_position);
+    // The triangle's own plane, on the side of the smooth normal; a shadow falls on it.
+    let facet = cross(dpdx(interpolated.world_position), dpdy(interpolated.world_position));
+    let facet_side = select(-1.0, 1.0, dot(facet, smooth_normal) > 0.0);
+    let has_facet = dot(facet, facet) > 0.0;
+    let flat_normal = select(smooth_normal, facet_side * facet * inverseSqrt(dot(facet, facet)), has_facet);
 
     let translucent = material_number(f32(object.material), MATERIALS_IN_SET) != NO_MATERIAL;
     let row = material_table[select(0, object.material, translucent)];
@@ -105,7 +117,7 @@ fn gbuffer_fragment(interpolated: GBufferInterpolated, @builtin(front_facing) fr
     let roughness = select(object.opaque_roughness, row.surface.roughness, translucent);
     let profiles = material_profiles(row, surface_albedo);
     let transmission = frame.transmission * select(0.0, row.surface.transmission_strength, translucent);
-    let is_thin = translucent && row.surface.thin_thickness_mm > 0.0;
+    let is_thin = THIN_SHEETS && translucent && row.surface.thin_thickness_mm > 0.0;
 
     let coupling = select(COUPLING_FULL, row.surface.coupling, translucent);
     let second_weight = select(0.0, row.surface.second_weight, translucent);
@@ -118,42 +130,52 @@ fn gbuffer_fragment(interpolated: GBufferInterpolated, @builtin(front_facing) fr
     let ambient_share = entering_ambient_share(specular);
     let leaving = leaving_share(specular, view_albedo, ambient_share);
     let sheet_length = row.surface.slab_mean_free_path_mm;
-    let sheet = slab_transmittance(surface_albedo, sheet_length, row.surface.thin_thickness_mm);
+    var sheet = vec3f(0.0);
+    if THIN_SHEETS {
+        sheet = slab_transmittance(surface_albedo, sheet_length, row.surface.thin_thickness_mm);
+    }
 
-    let ambient = frame.ambient_irradiance * ambient_share;
-    var irradiance = ambient * medium_ambient_entry(medium);
-    var unscattered = frame.ambient_irradiance / PI * view_albedo;
+    var around = frame.ambient_irradiance;
+    var around_behind = frame.ambient_irradiance;
+    var reflected = frame.ambient_irradiance / PI;
+    if HAS_ENVIRONMENT {
+        let mirrored = reflect(-towards_camera, normal);
+        around += environment_irradiance(frame.environment, normal);
+        around_behind += environment_irradiance(frame.environment, -normal);
+        reflected +=
+            environment_reflection(environment_radiance, environment_sampler, frame.environment, mirrored, roughness);
+    }
+    var irradiance = around * ambient_share * medium_ambient_entry(medium);
+    var unscattered = reflected * view_albedo;
     // Irradiance from behind, times what comes through.
-    var through = select(vec3f(0.0), ambient * sheet, is_thin);
-    for (var i = 0u; i < min(frame.light_count, LIGHT_CAPACITY); i += 1u) {
-        let light = frame.lights[i];
-        let true_cosine = dot(smooth_normal, light.towards_light);
+    var through = select(vec3f(0.0), around_behind * ambient_share * sheet, is_thin);
+    let noise = interleaved_gradient_noise(vec2i(interpolated.clip_position.xy), 0u);
+    for (var i = 0u; i < frame.light_count; i += 1u) {
+        let light = lights[i];
+        let position = interpolated.world_position;
+        let arrival = light_arrival(light, position);
+        let true_cosine = dot(smooth_normal, arrival.towards);
         let is_behind = true_cosine < 0.0;
         // A sheet is seen from the light on either side.
-        let lift = select(1.0, -1.0, is_thin && is_behind) * light.shadow_normal_offset;
-        let lifted = interpolated.world_position + lift * smooth_normal;
-        let coordinate = (light.shadow_from_world * vec4f(lifted, 1.0)).xyz;
-        let visibility = shadow_visibility(shadow_maps, shadow_comparison, coordinate, i, light.shadow_filter_radius);
+        let shaded_normal = select(1.0, -1.0, is_thin && is_behind) * flat_normal;
+        let visibility = shadow_visibility(shadow_maps, shadow_comparison, light, position, shaded_normal, noise);
         // A bent normal must not light a point whose true surface faces away: fade out over the last 7 degrees, where
         // bent and true normals may disagree. Without a normal map they never do.
         let facing = select(1.0, clamp(true_cosine * 8.0, 0.0, 1.0), object.normal_scale > 0.0);
-        let cosine = max(dot(normal, light.towards_light), 0.0);
-        let arriving = light.irradiance * visibility * facing;
+        let cosine = max(dot(normal, arrival.towards), 0.0);
+        let arriving = arrival.irradiance * visibility * facing;
         let facing_away = max(-true_cosine, 0.0);
         let entering_cosine = select(cosine, facing_away, is_behind);
         let entering = entering_share(specular, entering_cosine);
         let angles = entering_angles(medium, entering_cosine);
         irradiance += arriving * (cosine * entering) * medium_entry(medium, angles);
-        unscattered += arriving * surface_reflection(specular, normal, light.towards_light, towards_camera);
-        let behind = light.irradiance * (facing_away * entering);
-        if is_thin {
-            through += visibility * behind * sheet;
-        } else if transmission > 0.0 && is_behind {
-            let position = interpolated.world_position;
-            let share =
-                transmitted_share(light, i, position, smooth_normal, row.surface, profiles, surface_albedo);
-            through += behind * share * medium_through(medium, angles);
-        }
+        unscattered += arriving * surface_reflection(specular, normal, arrival.towards, towards_camera);
+        let behind = arrival.irradiance * (facing_away * entering);
+        let is_measured = !is_thin && transmission > 0.0 && is_behind && light.layer != NO_SHADOW_MAP;
+        let share = transmitted_share(
+            is_measured, light, arrival.towards, position, smooth_normal, row.surface, profiles, surface_albedo,
+        );
+        through += behind * select(share * medium_through(medium, angles), visibility * sheet, is_thin);
     }
     through *= transmission;
     if TRANSMISSION_DIFFUSES && row.surface.transmission_diffused != 0u && !is_thin {
@@ -170,7 +192,7 @@ fn gbuffer_fragment(interpolated: GBufferInterpolated, @builtin(front_facing) fr
     targets.irradiance = vec4f(min(irradiance, vec3f(LARGEST_HALF)), leaving * medium.exit_share);
     targets.unscattered = vec4f(min(unscattered, vec3f(LARGEST_HALF)), pack_exit(medium));
     targets.surface = vec4f(surface_albedo, select(-1.0, f32(object.material), translucent));
-    if is_thin {
+    if THIN_SHEETS && is_thin {
         // A sheet sends back what a slab does, from where it entered.
         let sent_back = slab_reflectance(surface_albedo, sheet_length, row.surface.thin_thickness_mm);
         targets.surface = vec4f(sent_back, -1.0);

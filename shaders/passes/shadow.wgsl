@@ -2,7 +2,7 @@
 
 /// The light's projection of one shadow map.
 struct ShadowProjection {
-    /// Clip space of the light from world space: orthographic, depth 0 nearest the light.
+    /// Clip space of the light from world space; depth 0 nearest the light.
     light_from_world: mat4x4f,
 }
 

@@ -129,8 +129,9 @@ pub const KERNELS: &[Module] = modules![
 /// Light on surfaces: what enters, what is reflected, what comes through.
 pub const LIGHT: &[Module] = modules![
     "light/coupling",
-    "light/directional_light",
+    "light/environment",
     "light/fresnel",
+    "light/light",
     "light/lit_surface",
     "light/normal_map",
     "light/shadow",

@@ -21,12 +21,13 @@ use std::path::PathBuf;
 use subsurface_codegen::{Compilation, Estimator};
 use subsurface_runtime::Path;
 
-/// Measure kernels: errors and times side by side.
+/// Measure kernels and pictures: errors and times side by side.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
   subsurface bench kernels
-  subsurface bench kernels --size 1920x1080 --csv kernels.csv --plot kernels.svg")]
+  subsurface bench kernels --size 1920x1080 --csv kernels.csv --plot kernels.svg
+  subsurface bench pictures --sheet pictures.png")]
 pub struct BenchArguments {
     /// What to measure.
     #[command(subcommand)]
@@ -43,7 +44,12 @@ pub enum BenchCommand {
     /// kernel `dense` with the same profile. The time is that of the subsurface pass alone, from submission until the device
     /// is idle, as a ratio to importance-sampled with 17 taps in the same run: rounds in which every kernel runs once,
     /// and the median of the ratios. A second estimator bears witness to the reference; where they differ, a line warns.
-    Kernels(KernelsArguments),
+    Kernels(Box<KernelsArguments>),
+    /// Error of pictures against a path tracer's: by profile model, and by cause.
+    ///
+    /// A truth is a scene that `subsurface export` wrote and reference/pictures/render.py rendered. Each is drawn with the
+    /// variants of its material, four by four pixels for one, and compared as `subsurface compare` does.
+    Pictures(super::pictures::PicturesArguments),
 }
 
 /// Arguments of `subsurface bench kernels`.
@@ -137,6 +143,7 @@ fn contender(text: &str) -> Result<Estimator, String> {
 pub fn run(arguments: &BenchArguments) -> Result<(), Failure> {
     match &arguments.command {
         BenchCommand::Kernels(arguments) => run_kernels(arguments, Vec::new()),
+        BenchCommand::Pictures(arguments) => super::pictures::run(arguments),
     }
 }
 

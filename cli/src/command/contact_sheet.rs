@@ -10,7 +10,8 @@ use crate::picture::contact_sheet::{Tile, compose};
 use crate::picture::{file, write_png};
 use crate::progress::bar;
 use crate::say;
-use crate::scene::camera::{Camera, DEFAULT_AMBIENT_INTENSITY, DEFAULT_FOV_Y_DEGREES, Light, Size};
+use crate::scene::camera::{Camera, DEFAULT_FOV_Y_DEGREES, Size};
+use crate::scene::light::{DEFAULT_AMBIENT_INTENSITY, Light};
 use clap::{Args, value_parser};
 use std::path::{Path, PathBuf};
 use subsurface_codegen::Compiler;
@@ -100,6 +101,7 @@ pub fn run(arguments: &ContactSheetArguments) -> Result<(), Failure> {
             camera,
             lights: &Light::DEFAULT,
             ambient_intensity: DEFAULT_AMBIENT_INTENSITY,
+            environment: None,
             size: arguments.size,
             shown: if profile.is_some() { Shown::Subsurface } else { Shown::Surface },
             wants_aovs: false,

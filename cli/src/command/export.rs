@@ -5,10 +5,12 @@ use super::render::{DEFAULT_MATERIAL, material_of_object};
 use super::view::{MeshArguments, ViewArguments, load_scene};
 use crate::failure::{Explain, Failure, warning};
 use crate::mitsuba::{Boundary, CHANNELS, Exported, Medium, flaws, ply, xml};
+use crate::picture::exr::write_exr;
 use crate::picture::file::write_atomically;
 use crate::progress::Spinner;
 use crate::say;
-use crate::scene::camera::{Light, Size};
+use crate::scene::camera::Size;
+use crate::scene::light::Light;
 use crate::scene::{Object, Surface};
 use clap::{Args, ValueEnum};
 use std::fmt;
@@ -49,6 +51,9 @@ pub struct ExportArguments {
     pub out: PathBuf,
 }
 
+/// Name of the environment's image.
+const SKY: &str = "environment.exr";
+
 /// Path tracers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Program {
@@ -59,7 +64,7 @@ pub enum Program {
 /// What lies between a medium and the air.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub enum BoundaryKind {
-    /// `rough` where all light is ambient, else `matched`: light of one direction cannot be sampled through a rough one.
+    /// `matched` where a light has no size, else `rough`: such a light cannot be sampled through a rough boundary.
     #[default]
     Auto,
     /// Nothing: no highlights, and no refraction.
@@ -88,7 +93,7 @@ impl fmt::Display for Difference {
             Self::Black => {
                 write!(
                     f,
-                    "light of one direction cannot be sampled through a rough boundary: it will be missing"
+                    "lights without a size cannot be sampled through a rough boundary: their light will be missing"
                 )
             }
             Self::MeanAlbedo { object } => {
@@ -112,9 +117,11 @@ impl Explain for Difference {
             match self {
                 Self::NoHighlights => {
                     "compare with a picture whose material has `reflectance_at_normal: 0`, or export with \
-                     --boundary rough and ambient light"
+                     --boundary rough and lights that have a size"
                 }
-                Self::Black => "use --boundary matched, or ambient light alone: --light 0,-1,0,0 --ambient 1",
+                Self::Black => {
+                    "use --boundary matched, or give the lights a size: --light dx,dy,dz,intensity,degrees"
+                }
                 Self::MeanAlbedo { .. } | Self::NormalMap { .. } => {
                     "compare with a picture of the same mesh without it"
                 }
@@ -135,7 +142,7 @@ pub fn run(arguments: &ExportArguments) -> Result<(), Failure> {
     let scene = load_scene(&arguments.mesh)?;
     let camera = arguments.view.camera(&scene, arguments.size)?;
     let lights: Vec<Light> =
-        arguments.view.lights().into_iter().filter(|light| light.intensity > 0.0).collect();
+        arguments.view.lights().into_iter().filter(|light| light.intensity() > 0.0).collect();
     std::fs::create_dir_all(&arguments.out).map_err(|reason| {
         let message = format!("cannot create {}: {reason}", arguments.out.display());
         Failure::new(message, "name a folder that may be written to with --out DIR")
@@ -161,9 +168,14 @@ pub fn run(arguments: &ExportArguments) -> Result<(), Failure> {
             eprintln!("{}\n", warning(difference));
         }
     }
+    let environment = arguments.view.environment()?;
+    if let Some(environment) = &environment {
+        write_exr(&arguments.out.join(SKY), &environment.radiance)?;
+    }
+    let sky = environment.as_ref().map(|environment| (SKY, environment));
     for (channel, name) in CHANNELS.into_iter().enumerate() {
         let path = arguments.out.join(name).with_extension("xml");
-        let text = xml(channel, &exported, &camera, &lights, arguments.view.ambient, arguments.size);
+        let text = xml(channel, &exported, &camera, &lights, arguments.view.ambient, sky, arguments.size);
         write_atomically(&path, text.as_bytes())?;
         say!("{}", path.display());
     }
@@ -192,18 +204,27 @@ fn medium(
     }
     let own = Boundary::of(material);
     let is_rough = match boundary {
-        BoundaryKind::Auto => lights.is_empty(),
+        BoundaryKind::Auto => !lights.iter().any(is_point),
         BoundaryKind::Matched => false,
         BoundaryKind::Rough => true,
     };
     match (is_rough, own) {
         (_, Boundary::Matched) => (),
         (false, _) => differences.push(Difference::NoHighlights),
-        (true, _) if !lights.is_empty() => differences.push(Difference::Black),
+        (true, _) if lights.iter().any(is_point) => differences.push(Difference::Black),
         (true, _) => (),
     }
     let boundary = if is_rough { own } else { Boundary::Matched };
     (Medium::of(material, surface_albedo(&object.surface, material), boundary), boundary)
+}
+
+/// Whether a light has no size.
+fn is_point(light: &Light) -> bool {
+    match light {
+        Light::Directional(light) => light.angular_diameter_degrees == 0.0,
+        Light::Point(lamp) => lamp.radius_mm == 0.0,
+        Light::Spot(_) => true,
+    }
 }
 
 /// The surface albedo that a picture has in the mean.

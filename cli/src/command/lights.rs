@@ -1,49 +1,39 @@
-//! `--light`, as often as a frame holds lights.
+//! `--light`, `--point` and `--spot`.
 
-use crate::scene::camera::Light;
-use clap::error::ErrorKind;
-use clap::{ArgMatches, Args, Command, FromArgMatches};
-use subsurface_runtime::LIGHT_CAPACITY;
+use crate::scene::light::{DirectionalLight, Light, PointLight, SpotLight};
+use clap::Args;
 
-/// The lights of a command: at most [`LIGHT_CAPACITY`]; none means [`Light::DEFAULT`].
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Lights(pub Vec<Light>);
-
-#[derive(Debug, Args)]
-struct LightArguments {
-    /// A directional light: the way in which it travels, from the light to the scene, and its irradiance (default 1).
-    /// May be given up to four times; by default a key light and a rim light from behind.
-    #[arg(long = "light", value_name = "dx,dy,dz[,intensity]", allow_hyphen_values = true)]
-    given: Vec<Light>,
+/// The lights of a command; none means [`Light::DEFAULT`].
+#[derive(Clone, Debug, Default, PartialEq, Args)]
+pub struct LightArguments {
+    /// A directional light: the way in which it travels, from the light to the scene, its irradiance (default 1), and the
+    /// angle that it spans in the sky (default 0; the sun has 0.53), by which its shadows are soft.
+    ///
+    /// Lights may be given any number of times; the four that matter most cast shadows and shine through what is thin. By
+    /// default there are a key light and a rim light from behind. `--light 0,-1,0,0` alone is no light.
+    #[arg(long = "light", value_name = "dx,dy,dz[,intensity[,degrees]]", allow_hyphen_values = true)]
+    pub directional: Vec<DirectionalLight>,
+    /// A lamp: where it stands in metres, its irradiance at the distance of a metre (default 1), and its radius in mm
+    /// (default 0), by which its shadows are soft.
+    #[arg(long = "point", value_name = "x,y,z[,intensity[,radius_mm]]", allow_hyphen_values = true)]
+    pub points: Vec<PointLight>,
+    /// A lamp that shines into a cone: where it stands, the axis away from it, the cone's full angle in degrees, of which
+    /// the outer tenth falls off, and the rest as of --point.
+    #[arg(
+        long = "spot",
+        value_name = "x,y,z,dx,dy,dz,degrees[,intensity[,radius_mm]]",
+        allow_hyphen_values = true
+    )]
+    pub spots: Vec<SpotLight>,
 }
 
-// The help text says it in words.
-const _: () = assert!(LIGHT_CAPACITY == 4);
-
-/// clap counts the values of one occurrence, not the occurrences, so that is done here.
-impl FromArgMatches for Lights {
-    fn from_arg_matches(matches: &ArgMatches) -> Result<Self, clap::Error> {
-        let LightArguments { given } = LightArguments::from_arg_matches(matches)?;
-        if given.len() > LIGHT_CAPACITY {
-            let message =
-                format!("--light is given {} times, and a frame holds {LIGHT_CAPACITY} lights", given.len());
-            return Err(clap::Error::raw(ErrorKind::TooManyValues, message));
-        }
-        Ok(Self(given))
-    }
-
-    fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), clap::Error> {
-        *self = Self::from_arg_matches(matches)?;
-        Ok(())
-    }
-}
-
-impl Args for Lights {
-    fn augment_args(command: Command) -> Command {
-        LightArguments::augment_args(command)
-    }
-
-    fn augment_args_for_update(command: Command) -> Command {
-        LightArguments::augment_args_for_update(command)
+impl LightArguments {
+    /// The lights, or the default ones.
+    pub fn lights(&self) -> Vec<Light> {
+        let directional = self.directional.iter().copied().map(Light::Directional);
+        let points = self.points.iter().copied().map(Light::Point);
+        let spots = self.spots.iter().copied().map(Light::Spot);
+        let given: Vec<Light> = directional.chain(points).chain(spots).collect();
+        if given.is_empty() { Light::DEFAULT.to_vec() } else { given }
     }
 }

@@ -23,11 +23,16 @@ mod number;
 #[cfg(feature = "analysis")]
 mod output;
 #[cfg(feature = "analysis")]
+pub mod pictures;
+#[cfg(feature = "analysis")]
 pub mod profile;
 #[cfg(feature = "analysis")]
 pub mod reference;
 pub mod render;
-mod view;
+pub(crate) mod view;
+
+#[cfg(feature = "analysis")]
+pub(crate) use render::material_of_object;
 
 use crate::failure::Failure;
 use clap::{Parser, Subcommand};
@@ -97,7 +102,7 @@ pub enum Command {
     /// Tell how far a picture is from a truth: RMSE, PSNR, mean, FLIP.
     #[cfg(feature = "analysis")]
     Compare(compare::CompareArguments),
-    /// Measure kernels: errors and times side by side.
+    /// Measure kernels and pictures: errors and times side by side.
     #[cfg(feature = "analysis")]
     Bench(bench::BenchArguments),
     /// Name the graphics adapter that pictures are drawn on.

@@ -29,6 +29,8 @@ Examples:
   subsurface render --debug filter-radius --out radii.png
   subsurface render --timings --out bust.png
   subsurface render --mesh head.glb --camera 0.3,0.1,0.9 --target 0,0.05,0 --light 0.7,-0.5,-0.5,2.5 --out head.png
+  subsurface render --mesh head.glb --environment studio.hdr --light 0,-1,0,0 --out head.png
+  subsurface render --point 0.3,0.2,0.4,0.3,20 --ambient 0.1 --out lamp.png
   subsurface render --mesh head.glb --no-subsurface --out plain.png")]
 pub struct RenderArguments {
     /// Directory of materials: one .ron file each, profiles in DIR/profiles.
@@ -118,6 +120,7 @@ pub fn run(arguments: &RenderArguments) -> Result<(), Failure> {
     let material = material_set::number(&materials, &arguments.material)?;
     let mut studio = Studio::open(&materials, arguments.kernel.route.chosen())?;
     let scene = load_scene(&arguments.mesh)?;
+    let environment = arguments.view.environment()?;
     let drawn = {
         let _spinner = Spinner::new("drawing");
         studio.draw(&Frame {
@@ -126,6 +129,7 @@ pub fn run(arguments: &RenderArguments) -> Result<(), Failure> {
             camera: arguments.view.camera(&scene, arguments.size)?,
             lights: &arguments.view.lights(),
             ambient_intensity: arguments.view.ambient,
+            environment: environment.as_ref(),
             size: arguments.size,
             shown: match arguments.debug {
                 Some(view) => Shown::Debug(view),
@@ -148,7 +152,7 @@ pub fn run(arguments: &RenderArguments) -> Result<(), Failure> {
 }
 
 /// The material of each object: by its glTF material's name, else `fallback`.
-pub(super) fn material_of_object(scene: &Scene, materials: &Compilation, fallback: u32) -> Vec<u32> {
+pub(crate) fn material_of_object(scene: &Scene, materials: &Compilation, fallback: u32) -> Vec<u32> {
     let of = |name: Option<&str>| {
         name.and_then(|name| materials.set.index_of(name)).map_or(fallback, |n| n as u32)
     };

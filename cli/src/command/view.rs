@@ -1,10 +1,12 @@
 //! Scenes and views as several commands take them.
 
-use super::lights::Lights;
+use super::lights::LightArguments;
 use super::number;
 use crate::failure::{Failure, warning};
 use crate::progress::Spinner;
-use crate::scene::camera::{Camera, DEFAULT_AMBIENT_INTENSITY, DEFAULT_FOV_Y_DEGREES, Light, Size, Triple};
+use crate::scene::camera::{Camera, DEFAULT_FOV_Y_DEGREES, Size, Triple};
+use crate::scene::environment::Environment;
+use crate::scene::light::{DEFAULT_AMBIENT_INTENSITY, Light};
 use crate::scene::{Scene, bust, gltf, shapes, texture_orientation};
 use clap::{Args, ValueEnum};
 use glam::Vec3;
@@ -117,10 +119,20 @@ pub struct ViewArguments {
     pub fov_y_degrees: f32,
     /// Where the light comes from.
     #[command(flatten)]
-    pub lights: Lights,
+    pub lights: LightArguments,
     /// Irradiance that comes from everywhere alike, as a light's intensity: 0 for none.
     #[arg(long, value_name = "INTENSITY", default_value_t = DEFAULT_AMBIENT_INTENSITY, value_parser = number::intensity, allow_hyphen_values = true)]
     pub ambient: f32,
+    /// Light from all around: an equirectangular image, .exr or .hdr, twice as wide as it is high. Its middle lies towards
+    /// -z, its right half towards +x.
+    #[arg(long, value_name = "SKY.exr|SKY.hdr")]
+    pub environment: Option<PathBuf>,
+    /// Factor on the environment.
+    #[arg(long, value_name = "X", default_value_t = 1.0, requires = "environment", value_parser = number::intensity, allow_hyphen_values = true)]
+    pub environment_intensity: f32,
+    /// Turn of the environment about the vertical, in degrees.
+    #[arg(long, value_name = "D", default_value_t = 0.0, requires = "environment", value_parser = number::turn_degrees, allow_hyphen_values = true)]
+    pub environment_turn_degrees: f32,
 }
 
 impl ViewArguments {
@@ -153,7 +165,18 @@ impl ViewArguments {
 
     /// The lights, or the default ones.
     pub fn lights(&self) -> Vec<Light> {
-        let Lights(given) = &self.lights;
-        if given.is_empty() { Light::DEFAULT.to_vec() } else { given.clone() }
+        self.lights.lights()
+    }
+
+    /// The environment, if there is one; prints warnings.
+    pub fn environment(&self) -> Result<Option<Environment>, Failure> {
+        let Some(path) = &self.environment else { return Ok(None) };
+        let _spinner = Spinner::new(format!("reading {}", path.display()));
+        let (environment, clamped) = Environment::read(path)?;
+        if let Some(clamped) = clamped {
+            eprintln!("{}\n", warning(&clamped));
+        }
+        let turn_radians = self.environment_turn_degrees.to_radians();
+        Ok(Some(Environment { intensity: self.environment_intensity, turn_radians, ..environment }))
     }
 }

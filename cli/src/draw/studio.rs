@@ -6,8 +6,8 @@ use std::time::{Duration, Instant};
 use subsurface_codegen::Compilation;
 use subsurface_runtime::{
     self as runtime, CompositeDescriptor, CompositeInputs, CompositePass, CompositeSettings, DebugView,
-    DirectionalLight, DistancePass, Extent, FrameError, GBuffer, Geometry, Object, PassTimer, Renderer,
-    RendererDescriptor, SubsurfaceView, SurfaceDescriptor, Target, TexturePixels, Vertex, wgpu,
+    DistancePass, Extent, FrameError, GBuffer, Geometry, Object, PassTimer, Renderer, RendererDescriptor,
+    SubsurfaceView, SurfaceDescriptor, Target, TexturePixels, Vertex, wgpu,
 };
 
 use super::device::{Device, DeviceError};
@@ -15,7 +15,9 @@ use super::route::Route;
 use super::{beyond_device, load, out_of_order};
 use crate::failure::Failure;
 use crate::picture::{DisplayPicture, LinearPicture};
-use crate::scene::camera::{Camera, Light, Size};
+use crate::scene::camera::{Camera, Size};
+use crate::scene::environment::Environment;
+use crate::scene::light::Light;
 use crate::scene::{Image, Scene};
 
 /// glTF and the bust are in metres.
@@ -40,6 +42,8 @@ pub struct Frame<'a> {
     pub lights: &'a [Light],
     /// Irradiance that comes from everywhere alike, as a light's intensity.
     pub ambient_intensity: f32,
+    /// Light from all around, if there is some.
+    pub environment: Option<&'a Environment>,
     /// Size of the picture.
     pub size: Size,
     /// Pixels drawn per pixel of the picture, along each side: 1, or more for smooth silhouettes.
@@ -167,6 +171,10 @@ fn draw(
         .subsurface
         .set_debug_view(debug_view)
         .map_err(|error| Failure::new(error.to_string(), "leave --debug out, or choose another adapter"))?;
+    let environment = frame.environment.map(|environment| uploaded(device, environment)).transpose()?;
+    renderer
+        .set_environment(environment)
+        .map_err(|error| Failure::new(error.to_string(), "please report this as a defect"))?;
     let objects = objects(device, frame)?;
     let view = prepare(device, renderer, frame, size)?;
 
@@ -235,15 +243,7 @@ fn prepare(
     frame: &Frame<'_>,
     size: Extent,
 ) -> Result<SubsurfaceView, Failure> {
-    let lights: Vec<DirectionalLight> = frame
-        .lights
-        .iter()
-        .map(|light| DirectionalLight {
-            direction: light.direction,
-            // A white diffuse surface under irradiance π has radiance 1.
-            irradiance: [std::f32::consts::PI * light.intensity; 3],
-        })
-        .collect();
+    let lights: Vec<runtime::Light> = frame.lights.iter().map(runtime_light).collect();
     let bounds = runtime::Bounds {
         centre: frame.scene.bounds.centre(),
         // A single point still needs a sphere to fit shadow maps to.
@@ -257,14 +257,52 @@ fn prepare(
     let frame = runtime::Frame {
         lights: &lights,
         ambient_irradiance: [std::f32::consts::PI * frame.ambient_intensity; 3],
+        environment_intensity: frame.environment.map_or(0.0, |environment| environment.intensity),
+        environment_turn_radians: frame.environment.map_or(0.0, |environment| environment.turn_radians),
         transmission: if frame.shown == Shown::Surface { 0.0 } else { 1.0 },
         taps: if frame.shown == Shown::Surface { Some(0) } else { None },
         ..runtime::Frame::new(camera, bounds, MILLIMETRES_PER_WORLD_UNIT)
     };
-    renderer
-        .prepare(&device.queue, &frame)
-        .map_err(|error| Failure::new(error.to_string(), "give fewer --light"))?;
+    renderer.prepare(&device.queue, &frame).map_err(out_of_order)?;
     Ok(frame.subsurface_view(size))
+}
+
+/// A light as the renderer takes it.
+fn runtime_light(light: &Light) -> runtime::Light {
+    // A white diffuse surface under irradiance π has radiance 1.
+    let irradiance = [std::f32::consts::PI * light.intensity(); 3];
+    match light {
+        Light::Directional(light) => runtime::DirectionalLight {
+            direction: light.direction,
+            irradiance,
+            angular_diameter_radians: light.angular_diameter_degrees.to_radians(),
+        }
+        .into(),
+        Light::Point(lamp) => {
+            runtime::PointLight { position: lamp.position, intensity: irradiance, radius_mm: lamp.radius_mm }
+                .into()
+        }
+        Light::Spot(spot) => {
+            let [inner_angle_radians, outer_angle_radians] = spot.angles_radians();
+            runtime::SpotLight {
+                position: spot.lamp.position,
+                direction: spot.direction,
+                intensity: irradiance,
+                radius_mm: spot.lamp.radius_mm,
+                inner_angle_radians,
+                outer_angle_radians,
+            }
+            .into()
+        }
+    }
+}
+
+/// An environment on the device.
+fn uploaded(device: &Device, environment: &Environment) -> Result<runtime::Environment, Failure> {
+    let Size { width, height } = environment.radiance.size;
+    let pixels = &environment.radiance.pixels;
+    let made = runtime::Environment::new(&device.device, &device.queue, width, height, pixels);
+    made.map_err(|error| Failure::new(format!("{}: {error}", environment.file.display()), "repair the image"))
 }
 
 fn objects(device: &Device, frame: &Frame<'_>) -> Result<Vec<Object>, Failure> {

@@ -6,7 +6,8 @@ use crate::draw::{Buffers, Drawn, Frame, PixelScale, Route, Shown, Studio};
 use crate::failure::Failure;
 use crate::picture::LinearPicture;
 use crate::scene::Scene;
-use crate::scene::camera::{Camera, DEFAULT_AMBIENT_INTENSITY, DEFAULT_FOV_Y_DEGREES, Light, Size};
+use crate::scene::camera::{Camera, DEFAULT_FOV_Y_DEGREES, Size};
+use crate::scene::light::{DEFAULT_AMBIENT_INTENSITY, Light};
 use glam::Vec3;
 use subsurface_codegen::Compilation;
 
@@ -82,6 +83,7 @@ impl SceneCases<'_> {
             camera,
             lights: &Light::DEFAULT,
             ambient_intensity: DEFAULT_AMBIENT_INTENSITY,
+            environment: None,
             size: self.size,
             supersampling: 1,
             shown: Shown::Surface,

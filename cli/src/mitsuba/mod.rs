@@ -4,6 +4,7 @@
 //! a path through a medium has one mean free path.
 
 mod closed;
+mod emitter;
 mod medium;
 mod ply;
 mod scene;

@@ -1,9 +1,11 @@
 //! The scene file of one channel.
 
+use super::emitter;
 use super::{Boundary, MILLIMETRES_PER_METRE, Medium};
-use crate::scene::camera::{Camera, Light, Size};
+use crate::scene::camera::{Camera, Size};
+use crate::scene::environment::Environment;
+use crate::scene::light::Light;
 use glam::Vec3;
-use std::f64::consts::PI;
 use std::fmt::Write as _;
 
 /// Names of the channels, which are those of the files.
@@ -22,13 +24,14 @@ pub struct Exported {
     pub medium: Option<(Medium, Boundary)>,
 }
 
-/// The scene of a channel (0 to 2) as XML for Mitsuba 3; lengths in mm.
+/// The scene of a channel (0 to 2) as XML for Mitsuba 3; lengths in mm. The environment comes with the name of its image.
 pub fn xml(
     channel: usize,
     objects: &[Exported],
     camera: &Camera,
     lights: &[Light],
     ambient_intensity: f32,
+    environment: Option<(&str, &Environment)>,
     size: Size,
 ) -> String {
     let mut text = format!(
@@ -44,13 +47,10 @@ pub fn xml(
     );
     sensor(&mut text, camera, size);
     for light in lights {
-        let [x, y, z] = light.direction;
-        let irradiance = PI * f64::from(light.intensity);
-        let _ = write!(
-            text,
-            "    <emitter type=\"directional\">\n        <vector name=\"direction\" x=\"{x}\" y=\"{y}\" z=\"{z}\"/>\n\
-             \x20       <rgb name=\"irradiance\" value=\"{irradiance}\"/>\n    </emitter>\n"
-        );
+        emitter::light(&mut text, light);
+    }
+    if let Some((file, environment)) = environment {
+        emitter::environment(&mut text, file, environment);
     }
     if ambient_intensity > 0.0 {
         // Irradiance π I from everywhere alike is radiance I.

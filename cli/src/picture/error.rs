@@ -21,6 +21,8 @@ pub enum PictureError {
     MissingChannel { file: PathBuf, channel: String, present: Vec<String> },
     #[error("{}: channel `{channel}` is {}x{} pixels, expected {}x{}", file.display(), found.0, found.1, expected.0, expected.1)]
     ChannelSize { file: PathBuf, channel: String, found: (usize, usize), expected: (usize, usize) },
+    #[error("cannot take {} for an environment: {reason}", file.display())]
+    NoEnvironment { file: PathBuf, reason: String },
     #[error("{}: channel `{channel}` has {what} at pixel ({x}, {y})", file.display())]
     BadValue { file: PathBuf, channel: String, what: String, x: usize, y: usize },
 }
@@ -37,6 +39,9 @@ impl Explain for PictureError {
             }
             Self::MissingChannel { present, .. } => format!("the file has: {}", present.join(", ")),
             Self::ChannelSize { .. } => "all channels must cover the same pixels, without subsampling".into(),
+            Self::NoEnvironment { .. } => {
+                "give an equirectangular .exr or .hdr of radiance, which is finite and 0 or more".into()
+            }
             Self::BadValue { .. } => {
                 "repair the renderer that wrote it, or mark the pixel as background with Z = 0".into()
             }

@@ -1,4 +1,4 @@
-//! Where one looks from, and where the light comes from.
+//! Where one looks from.
 
 use super::Scene;
 use glam::Vec3;
@@ -6,10 +6,6 @@ use std::str::FromStr;
 
 /// Vertical field of view when none is asked for (degrees): about that of an 85 mm lens, the portrait's.
 pub const DEFAULT_FOV_Y_DEGREES: f32 = 24.0;
-
-/// Irradiance from everywhere alike when none is asked for, so that no shadow is black: a fortieth of a light of
-/// intensity 1.
-pub const DEFAULT_AMBIENT_INTENSITY: f32 = 0.025;
 
 /// A perspective camera in world space; up is +y.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -55,25 +51,6 @@ impl Camera {
     }
 }
 
-/// A light so far away that all its rays are parallel.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Light {
-    /// Unit vector in which the light travels: from the light to the scene.
-    pub direction: [f32; 3],
-    /// Irradiance on a surface that faces the light, ≥ 0; 1 lights white up to white.
-    pub intensity: f32,
-}
-
-impl Light {
-    /// Key light from the upper left of the default camera, which lays the shadow's edge over the face, and a rim light from
-    /// behind that shines through the ear.
-    pub const DEFAULT: [Light; 2] = [
-        // Unit vectors to the last digit that f32 has; see the test.
-        Light { direction: [0.662_266_2, -0.529_812_93, -0.529_812_93], intensity: 1.25 },
-        Light { direction: [-0.702_247, -0.117_041_16, 0.702_247], intensity: 1.6 },
-    ];
-}
-
 /// Three numbers with commas between: a point (m) or a direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Triple(pub [f32; 3]);
@@ -89,32 +66,8 @@ impl FromStr for Triple {
     }
 }
 
-impl FromStr for Light {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let (direction, intensity) = match numbers(text)?[..] {
-            [x, y, z] => (Vec3::new(x, y, z), 1.0),
-            [x, y, z, intensity] => (Vec3::new(x, y, z), intensity),
-            ref other => {
-                return Err(format!(
-                    "expected `dx,dy,dz` or `dx,dy,dz,intensity`, found {} numbers",
-                    other.len()
-                ));
-            }
-        };
-        let direction = direction
-            .try_normalize()
-            .ok_or("the direction is zero; give the way in which the light travels")?;
-        if intensity < 0.0 {
-            return Err(format!("the intensity {intensity} is negative"));
-        }
-        Ok(Self { direction: direction.to_array(), intensity })
-    }
-}
-
 /// Finite numbers with commas between.
-fn numbers(text: &str) -> Result<Vec<f32>, String> {
+pub(super) fn numbers(text: &str) -> Result<Vec<f32>, String> {
     text.split(',')
         .map(|part| {
             let part = part.trim();
@@ -180,24 +133,6 @@ impl std::fmt::Display for Size {
 mod tests {
     use super::*;
     use crate::scene::{Mesh, Object};
-
-    #[test]
-    fn a_light_is_a_unit_direction_and_an_intensity() {
-        let light: Light = "0, -2, 0".parse().unwrap();
-        assert_eq!(light, Light { direction: [0.0, -1.0, 0.0], intensity: 1.0 });
-        assert_eq!("0,0,5,0.5".parse::<Light>().unwrap().intensity, 0.5);
-        for wrong in ["", "1,2", "0,0,0", "1,0,0,-1", "1,0,x", "inf,0,0", "NaN,0,0", "1,2,3,4,5"] {
-            assert!(wrong.parse::<Light>().is_err(), "{wrong}");
-        }
-    }
-
-    #[test]
-    fn default_lights_are_unit_vectors() {
-        for light in Light::DEFAULT {
-            // A few roundings of f32.
-            assert!((Vec3::from(light.direction).length() - 1.0).abs() < 1e-6);
-        }
-    }
 
     #[test]
     fn a_size_has_two_edges_above_zero() {

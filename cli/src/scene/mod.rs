@@ -2,7 +2,9 @@
 
 pub mod bust;
 pub mod camera;
+pub mod environment;
 pub mod gltf;
+pub mod light;
 pub mod shapes;
 pub mod texture_orientation;
 mod texture_seam;

@@ -2,15 +2,17 @@
 
 use crate::bind_error::BindError;
 use crate::bindings::kernel::{
-    BindGroup3, ENTRY_GBUFFER_FRAGMENT, ENTRY_GBUFFER_VERTEX, GBufferFrame, GBufferVertex, GbufferBindGroup2,
+    self, BindGroup3, ENTRY_GBUFFER_FRAGMENT, ENTRY_GBUFFER_VERTEX, GBufferFrame, GBufferVertex,
+    GbufferBindGroup2,
 };
 use crate::camera::{Bounds, Camera};
+use crate::environment::Environment;
 use crate::extent::Extent;
 use crate::frame_error::FrameError;
 use crate::gbuffer::{GBuffer, TRANSLUCENT_STENCIL};
 use crate::input::{Holds, Input};
 use crate::label::Label;
-use crate::light::{DirectionalLight, LIGHT_CAPACITY, check_count};
+use crate::light::{Light, LightRanks};
 use crate::loaded_kernel::LoadedKernel;
 use crate::object::Object;
 use crate::output::{Output, Progress};
@@ -33,6 +35,9 @@ pub struct GBufferDescriptor<'a> {
     pub timestamps: Option<Timestamps>,
 }
 
+/// Lights that the first buffer holds; it grows with the frames.
+const FIRST_LIGHTS: usize = 8;
+
 /// Camera and lights of one frame.
 ///
 /// ```
@@ -48,10 +53,16 @@ pub struct GBufferView<'a> {
     pub size: Extent,
     /// The camera.
     pub camera: &'a Camera,
-    /// Directional lights, [`LIGHT_CAPACITY`] at most; by default none.
-    pub lights: &'a [DirectionalLight],
+    /// Lights, any number; by default none.
+    pub lights: &'a [Light],
+    /// Which of them have a map: those that the [`ShadowPass`](crate::ShadowPass) was given. By default none.
+    pub ranks: Option<&'a LightRanks>,
     /// Irradiance that comes from everywhere alike, linear red, green, blue; by default 0.
     pub ambient_irradiance: [f32; 3],
+    /// Factor on the environment that the pass was given: 1, the default, or 0 for none.
+    pub environment_intensity: f32,
+    /// Turn of the environment about the y axis, in radians; by default 0.
+    pub environment_turn_radians: f32,
     /// Factor on every material's transmission: 1, the default, or 0 for none.
     pub transmission: f32,
     /// A sphere around all objects.
@@ -73,7 +84,10 @@ impl<'a> GBufferView<'a> {
             size,
             camera,
             lights: &[],
+            ranks: None,
             ambient_irradiance: [0.0; 3],
+            environment_intensity: 1.0,
+            environment_turn_radians: 0.0,
             transmission: 1.0,
             bounds,
             millimetres_per_world_unit,
@@ -92,6 +106,12 @@ pub struct GBufferPass {
     uniform: wgpu::Buffer,
     comparison: wgpu::Sampler,
     layout: wgpu::BindGroupLayout,
+    /// For a buffer of more lights.
+    device: wgpu::Device,
+    lights: LightBuffer,
+    environment: Option<Environment>,
+    /// What is bound where there is no environment.
+    darkness: Environment,
     bound: Option<Bound>,
     /// Size of the frame that is prepared.
     size: Extent,
@@ -101,7 +121,29 @@ pub struct GBufferPass {
 #[derive(Debug)]
 struct Bound {
     bind_group: wgpu::BindGroup,
-    shadow_map_size: u32,
+    shadow_maps: wgpu::TextureView,
+}
+
+/// The lights of a frame.
+#[derive(Debug)]
+struct LightBuffer {
+    buffer: wgpu::Buffer,
+    /// How many it holds.
+    capacity: usize,
+    /// What is written to it, kept from frame to frame.
+    rows: Vec<kernel::Light>,
+}
+
+impl LightBuffer {
+    fn new(device: &wgpu::Device, label: &Label, capacity: usize) -> Self {
+        let buffer = device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some(&label.of("lights")),
+            size: (capacity * size_of::<kernel::Light>()) as u64,
+            usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        });
+        Self { buffer, capacity, rows: Vec::with_capacity(capacity) }
+    }
 }
 
 impl GBufferPass {
@@ -115,7 +157,7 @@ impl GBufferPass {
         descriptor: &GBufferDescriptor<'_>,
     ) -> Result<Self, PassError> {
         let label = Label::new(descriptor.label, NAME);
-        let pipeline = pipeline(device, kernel, &label, descriptor.pipeline_cache)?;
+        let pipeline = pipeline(device, kernel, &label, descriptor.pipeline_cache, false)?;
         let layout = GbufferBindGroup2::layout(device, &label.of("frame layout"));
         let uniform = uniform_buffer::<GBufferFrame>(device, &label.of("frame"));
         let comparison = device.create_sampler(&wgpu::SamplerDescriptor {
@@ -125,6 +167,8 @@ impl GBufferPass {
             compare: Some(wgpu::CompareFunction::LessEqual),
             ..Default::default()
         });
+        let lights = LightBuffer::new(device, &label, FIRST_LIGHTS);
+        let darkness = Environment::darkness(device);
         Ok(Self {
             label,
             pipeline_cache: descriptor.pipeline_cache.cloned(),
@@ -134,6 +178,10 @@ impl GBufferPass {
             uniform,
             comparison,
             layout,
+            device: device.clone(),
+            lights,
+            environment: None,
+            darkness,
             bound: None,
             size: Extent::new(0, 0),
             progress: Progress::default(),
@@ -146,7 +194,8 @@ impl GBufferPass {
     /// # Errors
     /// As of [`new`](Self::new); the old kernel stays.
     pub fn set_kernel(&mut self, device: &wgpu::Device, kernel: &LoadedKernel) -> Result<(), PassError> {
-        self.pipeline = pipeline(device, kernel, &self.label, self.pipeline_cache.as_ref())?;
+        let cache = self.pipeline_cache.as_ref();
+        self.pipeline = pipeline(device, kernel, &self.label, cache, self.environment.is_some())?;
         self.kernel = kernel.clone();
         Ok(())
     }
@@ -157,43 +206,93 @@ impl GBufferPass {
     /// # Errors
     /// A texture that holds no depth. The old one stays.
     pub fn bind(&mut self, device: &wgpu::Device, shadow_maps: &wgpu::TextureView) -> Result<(), BindError> {
-        let maps = Input::new("shadow_maps", shadow_maps).check(device, Holds::Depth)?;
-        let bind_group = GbufferBindGroup2 {
-            frame: self.uniform.as_entire_buffer_binding(),
-            shadow_maps,
-            shadow_comparison: &self.comparison,
-        }
-        .create(device, &self.layout, &self.label.of("frame bind group"));
-        self.bound = Some(Bound { bind_group, shadow_map_size: maps.size().width });
+        Input::new("shadow_maps", shadow_maps).check(device, Holds::Depth)?;
+        self.bind_group(shadow_maps.clone());
         self.progress = Progress::Bound;
         Ok(())
+    }
+
+    /// Lights all objects from all around too, or no more: light that is reflected, and that enters.
+    ///
+    /// [`GBufferView`] says how bright it is and how it is turned.
+    ///
+    /// Makes another pipeline where there was none before, or is none after.
+    ///
+    /// # Errors
+    /// As of [`new`](Self::new).
+    pub fn set_environment(&mut self, environment: Option<Environment>) -> Result<(), PassError> {
+        if environment.is_some() != self.environment.is_some() {
+            let cache = self.pipeline_cache.as_ref();
+            self.pipeline = pipeline(&self.device, &self.kernel, &self.label, cache, environment.is_some())?;
+        }
+        self.environment = environment;
+        if let Some(bound) = self.bound.take() {
+            self.bind_group(bound.shadow_maps);
+        }
+        Ok(())
+    }
+
+    fn bind_group(&mut self, shadow_maps: wgpu::TextureView) {
+        let environment = self.environment.as_ref().unwrap_or(&self.darkness);
+        let bind_group = GbufferBindGroup2 {
+            frame: self.uniform.as_entire_buffer_binding(),
+            shadow_maps: &shadow_maps,
+            shadow_comparison: &self.comparison,
+            lights: self.lights.buffer.as_entire_buffer_binding(),
+            environment_radiance: environment.radiance(),
+            environment_sampler: environment.sampler(),
+        }
+        .create(&self.device, &self.layout, &self.label.of("frame bind group"));
+        self.bound = Some(Bound { bind_group, shadow_maps });
     }
 
     /// Uploads this frame's camera and lights.
     ///
     /// # Errors
-    /// Nothing is bound, or more than [`LIGHT_CAPACITY`] lights.
+    /// Nothing is bound.
     pub fn prepare(&mut self, queue: &wgpu::Queue, view: &GBufferView<'_>) -> Result<(), FrameError> {
-        let Some(bound) = &self.bound else { return Err(FrameError::NotBound { pass: NAME }) };
-        check_count(view.lights)?;
+        if self.bound.is_none() {
+            return Err(FrameError::NotBound { pass: NAME });
+        }
+        self.upload_lights(queue, view);
         let projection =
             glam::Mat4::from_cols_array_2d(&view.camera.projection(view.size.aspect(), &view.bounds));
-        let mut lights: [_; LIGHT_CAPACITY] = bytemuck::Zeroable::zeroed();
-        for (slot, light) in lights.iter_mut().zip(view.lights) {
-            *slot = light.uniform(&view.bounds, bound.shadow_map_size, view.millimetres_per_world_unit);
-        }
+        let environment = self.environment.as_ref().unwrap_or(&self.darkness);
         let frame = GBufferFrame {
             clip_from_world: (projection * view.camera.view_from_world()).to_cols_array_2d(),
             camera_position: view.camera.position,
             light_count: view.lights.len() as u32,
             ambient_irradiance: view.ambient_irradiance,
             transmission: view.transmission,
-            lights,
+            environment: environment.uniform(view.environment_intensity, view.environment_turn_radians),
         };
         queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&frame));
         self.size = view.size;
         self.progress = Progress::Prepared;
         Ok(())
+    }
+
+    /// Writes the lights by their ranks; a buffer that is too small is made anew, twice as large.
+    fn upload_lights(&mut self, queue: &wgpu::Queue, view: &GBufferView<'_>) {
+        let count = view.lights.len();
+        if count > self.lights.capacity {
+            self.lights = LightBuffer::new(&self.device, &self.label, count.next_power_of_two());
+            if let Some(bound) = self.bound.take() {
+                self.bind_group(bound.shadow_maps);
+            }
+        }
+        let rows = &mut self.lights.rows;
+        rows.clear();
+        let row = |index: usize, layer| {
+            view.lights[index].uniform(layer, &view.bounds, view.millimetres_per_world_unit)
+        };
+        match view.ranks {
+            Some(ranks) => {
+                rows.extend(ranks.order().iter().map(|&index| row(index, ranks.layer(index))));
+            }
+            None => rows.extend((0..count).map(|index| row(index, None))),
+        }
+        queue.write_buffer(&self.lights.buffer, 0, bytemuck::cast_slice(rows));
     }
 
     /// Records the pass into `targets`, which have the view's size.
@@ -222,7 +321,8 @@ impl GBufferPass {
             depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
                 view: &targets.depth_stencil.view,
                 depth_ops: Some(wgpu::Operations {
-                    load: wgpu::LoadOp::Clear(1.0),
+                    // Reversed: 0 is infinitely far.
+                    load: wgpu::LoadOp::Clear(0.0),
                     store: wgpu::StoreOp::Store,
                 }),
                 stencil_ops: Some(wgpu::Operations {
@@ -250,6 +350,7 @@ fn pipeline(
     kernel: &LoadedKernel,
     label: &Label,
     cache: Option<&wgpu::PipelineCache>,
+    has_environment: bool,
 ) -> Result<wgpu::RenderPipeline, PassError> {
     if !kernel.module().has_gbuffer() {
         return Err(PassError::NoGBuffer);
@@ -289,7 +390,7 @@ fn pipeline(
         depth_stencil: Some(wgpu::DepthStencilState {
             format: GBuffer::DEPTH_STENCIL_FORMAT,
             depth_write_enabled: Some(true),
-            depth_compare: Some(wgpu::CompareFunction::Less),
+            depth_compare: Some(wgpu::CompareFunction::Greater),
             stencil: wgpu::StencilState {
                 front: mark,
                 back: mark,
@@ -302,7 +403,10 @@ fn pipeline(
         fragment: Some(wgpu::FragmentState {
             module,
             entry_point: Some(ENTRY_GBUFFER_FRAGMENT),
-            compilation_options: Default::default(),
+            compilation_options: wgpu::PipelineCompilationOptions {
+                constants: &[("HAS_ENVIRONMENT", f64::from(u8::from(has_environment)))],
+                ..Default::default()
+            },
             targets: &[colour(), colour(), colour()],
         }),
         multiview_mask: None,

@@ -5,7 +5,7 @@ use crate::bindings::shadow::{BindGroup0, BindGroup1, ENTRY_SHADOW_VERTEX, Shado
 use crate::camera::Bounds;
 use crate::frame_error::FrameError;
 use crate::label::Label;
-use crate::light::{DirectionalLight, LIGHT_CAPACITY, check_count};
+use crate::light::{Light, LightRanks, SHADOW_MAPS};
 use crate::object::Object;
 use crate::output::Progress;
 use crate::timestamps::Timestamps;
@@ -30,7 +30,7 @@ pub struct ShadowDescriptor<'a> {
     pub timestamps: Option<Timestamps>,
 }
 
-/// Renders one shadow map per light; they feed shadows and thickness.
+/// Renders a shadow map for each of the most important lights, [`SHADOW_MAPS`] at most; they feed shadows and thickness.
 ///
 /// It reads no texture, so there is nothing to bind: `new`, `prepare`, `encode`.
 #[derive(Debug)]
@@ -98,7 +98,7 @@ impl ShadowPass {
             size: wgpu::Extent3d {
                 width: SHADOW_MAP_SIZE,
                 height: SHADOW_MAP_SIZE,
-                depth_or_array_layers: LIGHT_CAPACITY as u32,
+                depth_or_array_layers: SHADOW_MAPS as u32,
             },
             mip_level_count: 1,
             sample_count: 1,
@@ -107,7 +107,7 @@ impl ShadowPass {
             usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
             view_formats: &[],
         });
-        let layers = (0..LIGHT_CAPACITY as u32)
+        let layers = (0..SHADOW_MAPS as u32)
             .map(|layer| Layer::new(device, &label, &layout, &texture, layer))
             .collect();
         let maps = texture.create_view(&wgpu::TextureViewDescriptor {
@@ -129,25 +129,17 @@ impl ShadowPass {
         SHADOW_MAP_SIZE
     }
 
-    /// Uploads the lights' projections.
-    ///
-    /// # Errors
-    /// More than [`LIGHT_CAPACITY`] lights.
-    pub fn prepare(
-        &mut self,
-        queue: &wgpu::Queue,
-        lights: &[DirectionalLight],
-        bounds: &Bounds,
-    ) -> Result<(), FrameError> {
-        check_count(lights)?;
-        for (light, layer) in lights.iter().zip(&self.layers) {
+    /// Uploads the projections of the lights that have a map.
+    pub fn prepare(&mut self, queue: &wgpu::Queue, lights: &[Light], ranks: &LightRanks, bounds: &Bounds) {
+        self.light_count = 0;
+        for (index, layer) in ranks.mapped().zip(&self.layers) {
+            let camera = lights[index].shadow_camera(bounds);
             let projection =
-                ShadowProjection { light_from_world: light.light_from_world(bounds).to_cols_array_2d() };
+                ShadowProjection { light_from_world: camera.clip_from_world().to_cols_array_2d() };
             queue.write_buffer(&layer.uniform, 0, bytemuck::bytes_of(&projection));
+            self.light_count += 1;
         }
-        self.light_count = lights.len();
         self.progress = Progress::Prepared;
-        Ok(())
     }
 
     /// Records one depth-only pass per light, each into its layer of [`maps`](Self::maps).
