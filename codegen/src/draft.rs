@@ -1,7 +1,7 @@
 //! A material on its way from its file: names are resolved, and nothing is converted yet.
 
 use crate::material::{Coupling, DiffuseLobe, ResolvedProfile, SecondLobe, Transmittance};
-use crate::schema::{LengthGiven, Triple};
+use crate::schema::{DiffuseGiven, LengthGiven, Triple};
 use crate::source::{Span, Spanned};
 
 /// A material with the values of its bases filled in.
@@ -17,9 +17,11 @@ pub(crate) struct Draft<'a> {
     pub(crate) refractive_index: Option<&'a Spanned<f64>>,
     pub(crate) reflectance_at_normal: Option<&'a Spanned<f64>>,
     pub(crate) roughness: Option<&'a Spanned<f64>>,
-    pub(crate) coupling: Option<Coupling>,
+    pub(crate) coupling: Coupling,
     pub(crate) second_lobe: Option<SecondLobe>,
     pub(crate) diffuse: DiffuseLobe,
+    /// Where the file chooses it.
+    pub(crate) diffuse_given: Option<&'a Spanned<DiffuseGiven>>,
     pub(crate) transmission_strength: Option<&'a Spanned<f64>>,
     pub(crate) transmission_diffused: bool,
     pub(crate) transmittance: Option<&'a Spanned<Transmittance>>,

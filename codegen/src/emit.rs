@@ -144,6 +144,11 @@ fn emit_features(text: &mut String, set: &MaterialSet) {
             "SECOND_LOBES",
             any(|material| material.second_lobe.is_some()),
         ),
+        (
+            "Materials have a diffuse lobe of their own.",
+            "DIFFUSE_LOBES",
+            any(|material| material.diffuse.is_brdf()),
+        ),
         ("Materials are sheets.", "THIN_SHEETS", any(|material| material.thin_thickness_mm.is_some())),
         (
             "What comes through is what the profile says.",

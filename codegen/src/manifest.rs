@@ -50,6 +50,7 @@ pub(crate) fn manifest(of: &ManifestOf<'_>, module: &Module, reflection: &Reflec
                     }),
                 },
                 "diffuse": material.diffuse.name(),
+                "diffuse_shape": material.diffuse.shape(),
                 "refractive_index": material.refractive_index,
                 "transmission_diffused": material.transmission_diffused,
                 "transmission_strength": material.transmission_strength,

@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 
 use subsurface_kernel::constants::{
-    COUPLING_ENTRY, COUPLING_FULL, COUPLING_NONE, DIFFUSE_EVERYWHERE, DIFFUSE_LAMBERT, DIFFUSE_SEARCHLIGHT,
+    COUPLING_ENTRY, COUPLING_FULL, COUPLING_NONE, DIFFUSE_DISNEY, DIFFUSE_EVERYWHERE, DIFFUSE_HAPKE,
+    DIFFUSE_LAMBERT, DIFFUSE_LOMMEL_SEELIGER, DIFFUSE_OREN_NAYAR, DIFFUSE_SEARCHLIGHT, DIFFUSE_SHIRLEY,
 };
 use subsurface_profile::single_scattering_albedo::Entry;
 use subsurface_profile::{Length, Model};
@@ -121,24 +122,72 @@ impl Coupling {
 }
 
 /// How diffuse light depends on the angles at which it enters and leaves.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+///
+/// The formulas are in `shaders/light/diffuse_lobe.wgsl`, as f π/A of a BRDF f.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum DiffuseLobe {
     /// Not at all.
     Lambert,
     /// As of Chandrasekhar's half-space: [`HalfSpace`](subsurface_profile::HalfSpace). The profile is for this entry.
     Chandrasekhar(Entry),
+    /// As below a mirror of the material's reflectance, Real-Time Rendering 4, eq. 9.64 (Shirley et al. 1997).
+    Shirley,
+    /// As of light that is scattered once (Lommel 1889, Seeliger 1887), its mean that of the surface albedo.
+    LommelSeeliger,
+    /// As of dust (Hapke 1981).
+    Hapke {
+        /// B₀, by how much light that goes straight back is brighter, 0 to 1.
+        opposition: f64,
+        /// Half the width of that, as the tangent of half an angle, above 0.
+        opposition_width: f64,
+        /// Mean cosine of the angle at which a grain scatters, −0.95 to 0.95.
+        anisotropy: f64,
+    },
+    /// As of a rough surface of Lambert's facets (Oren and Nayar 1994).
+    OrenNayar {
+        /// σ, standard deviation of the facets' slopes in radians, 0 to 1.
+        sigma: f64,
+    },
+    /// As of Burley 2012, "Physically Based Shading at Disney".
+    Disney {
+        /// Share of the flatter form, 0 to 1.
+        subsurface: f64,
+    },
 }
 
 impl DiffuseLobe {
     /// The words in RON.
-    pub(crate) const WORDS: [&'static str; 2] = ["Lambert", "Chandrasekhar"];
+    pub(crate) const WORDS: [&'static str; 8] =
+        ["Lambert", "Coupled", "Chandrasekhar", "Shirley", "LommelSeeliger", "Hapke", "OrenNayar", "Disney"];
 
     /// The word in RON.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
-            Self::Lambert => Self::WORDS[0],
-            Self::Chandrasekhar(_) => Self::WORDS[1],
+            Self::Lambert => "Lambert",
+            Self::Chandrasekhar(_) => "Chandrasekhar",
+            Self::Shirley => "Shirley",
+            Self::LommelSeeliger => "LommelSeeliger",
+            Self::Hapke { .. } => "Hapke",
+            Self::OrenNayar { .. } => "OrenNayar",
+            Self::Disney { .. } => "Disney",
+        }
+    }
+
+    /// Whether it is a BRDF of its own, beside the half-space's and Lambert's.
+    pub(crate) const fn is_brdf(self) -> bool {
+        !matches!(self, Self::Lambert | Self::Chandrasekhar(_))
+    }
+
+    /// Its numbers, as the shaders take them.
+    pub(crate) const fn shape(self) -> [f64; 3] {
+        match self {
+            Self::Hapke { opposition, opposition_width, anisotropy } => {
+                [opposition, opposition_width, anisotropy]
+            }
+            Self::OrenNayar { sigma } => [sigma, 0.0, 0.0],
+            Self::Disney { subsurface } => [subsurface, 0.0, 0.0],
+            Self::Lambert | Self::Chandrasekhar(_) | Self::Shirley | Self::LommelSeeliger => [0.0; 3],
         }
     }
 
@@ -153,6 +202,11 @@ impl DiffuseLobe {
             Self::Lambert => DIFFUSE_LAMBERT,
             Self::Chandrasekhar(Entry::Searchlight) => DIFFUSE_SEARCHLIGHT,
             Self::Chandrasekhar(Entry::Diffuse) => DIFFUSE_EVERYWHERE,
+            Self::Shirley => DIFFUSE_SHIRLEY,
+            Self::LommelSeeliger => DIFFUSE_LOMMEL_SEELIGER,
+            Self::Hapke { .. } => DIFFUSE_HAPKE,
+            Self::OrenNayar { .. } => DIFFUSE_OREN_NAYAR,
+            Self::Disney { .. } => DIFFUSE_DISNEY,
         }
     }
 }

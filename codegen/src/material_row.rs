@@ -44,6 +44,7 @@ pub(crate) fn row(
         ("roughness", Value::scalar(material.roughness)),
         ("coupling", Value::U32(material.coupling.number())),
         ("diffuse", Value::U32(material.diffuse.number())),
+        ("diffuse_shape", Value::vector(material.diffuse.shape())),
         ("second_roughness", Value::scalar(material.second_lobe.map_or(0.0, |lobe| lobe.roughness))),
         ("second_weight", Value::scalar(material.second_lobe.map_or(0.0, |lobe| lobe.weight))),
         ("transmission_strength", Value::scalar(material.transmission_strength)),

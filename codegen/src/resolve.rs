@@ -16,7 +16,7 @@ use crate::material::{Coupling, DiffuseLobe, Material, ResolvedProfile, SecondLo
 use crate::quality_request::QualityRequest;
 use crate::schema::{
     DiffuseGiven, Given, LengthGiven, MaterialFile, OrMedium, ProfileExpression, ProfileFile, SET, SetFile,
-    Triple, no_entry, reflectance_at_normal, rounded,
+    Triple, no_entry, other_coupling, reflectance_at_normal, rounded,
 };
 use crate::source::{FileId, Span, Spanned};
 use crate::suggestion::{closest, list, shortened};
@@ -298,6 +298,7 @@ impl Resolution {
         };
         let (profile, profile_name) = profile?;
         let diffuse = self.diffuse(&profile, inherited.diffuse.value())?;
+        let coupling = self.coupling(inherited.diffuse.value(), inherited.coupling.value().copied())?;
         let length = match inherited.length.value()? {
             OrMedium::Value(length) => length.clone(),
             OrMedium::Medium(medium) => medium.length(profile.model.length()),
@@ -330,9 +331,10 @@ impl Resolution {
             refractive_index: inherited.refractive_index.value(),
             reflectance_at_normal: inherited.reflectance_at_normal.value(),
             roughness: inherited.roughness.value(),
-            coupling: inherited.coupling.value().copied(),
+            coupling,
             second_lobe: inherited.second_lobe.value().copied(),
             diffuse,
+            diffuse_given: inherited.diffuse.value(),
             transmission_strength: inherited.transmission_strength.value(),
             transmission_diffused: inherited.transmission_diffused.value().copied().unwrap_or_default(),
             transmittance: inherited.transmittance.value(),
@@ -493,7 +495,8 @@ impl Resolution {
     ) -> Option<DiffuseLobe> {
         let Some(given) = given else { return Some(DiffuseLobe::of_model(&profile.model)) };
         let entry = match given.value {
-            DiffuseGiven::Lambert => return Some(DiffuseLobe::Lambert),
+            DiffuseGiven::Lobe(lobe) => return Some(lobe),
+            DiffuseGiven::Coupled => return Some(DiffuseLobe::Lambert),
             DiffuseGiven::Chandrasekhar(entry) => entry.or_else(|| profile.model.entry()),
         };
         if entry.is_none() {
@@ -502,11 +505,32 @@ impl Resolution {
         entry.map(DiffuseLobe::Chandrasekhar)
     }
 
+    /// The coupling that a material has; some lobes are what they are under one alone.
+    fn coupling(
+        &mut self,
+        lobe: Option<&Spanned<DiffuseGiven>>,
+        given: Option<Coupling>,
+    ) -> Option<Coupling> {
+        let Some(lobe) = lobe else { return Some(given.unwrap_or_default()) };
+        let (needed, remedy) = match lobe.value {
+            DiffuseGiven::Coupled => (Coupling::Full, "write `diffuse: Lambert`, or leave `coupling` out"),
+            DiffuseGiven::Lobe(DiffuseLobe::Shirley) => {
+                (Coupling::None, "leave `coupling` out: the lobe knows of the mirror above it")
+            }
+            _ => return Some(given.unwrap_or_default()),
+        };
+        if given.is_some_and(|given| given != needed) {
+            self.diagnostics.push(other_coupling(lobe, needed.name(), remedy));
+            return None;
+        }
+        Some(needed)
+    }
+
     /// How the light enters that the surface albedo of a medium is for; a guess is a warning.
     fn entry(&mut self, profile: &ResolvedProfile, diffuse: DiffuseLobe, medium: &Span) -> Entry {
         let of_lobe = match diffuse {
             DiffuseLobe::Chandrasekhar(entry) => Some(entry),
-            DiffuseLobe::Lambert => None,
+            _ => None,
         };
         let known = of_lobe.or_else(|| profile.model.entry());
         if known.is_none() {
@@ -554,7 +578,7 @@ fn finish(file: &MaterialFile, draft: Draft<'_>) -> Material {
         ),
         roughness: number(draft.roughness, DEFAULT_ROUGHNESS),
         second_lobe: draft.second_lobe,
-        coupling: draft.coupling.unwrap_or_default(),
+        coupling: draft.coupling,
         diffuse: draft.diffuse,
         transmission_strength: number(draft.transmission_strength, DEFAULT_TRANSMISSION_STRENGTH),
         transmission_diffused: draft.transmission_diffused,

@@ -5,11 +5,17 @@ use subsurface_codegen::{Loaded, load_memory, profile_file_text};
 use subsurface_profile::ModelKind;
 
 /// Pieces that material files are made of, and some that they are not.
-const PIECES: [&str; 82] = [
+const PIECES: [&str; 88] = [
     "Material",
     "MaterialSet",
     "medium",
     "second",
+    "Hapke",
+    "OrenNayar",
+    "Disney",
+    "sigma",
+    "opposition",
+    "Shirley",
     "weight",
     "transmission",
     "diffused",

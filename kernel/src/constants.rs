@@ -69,6 +69,21 @@ constants! {
     /// `diffuse` of a half-space whose profile is for diffuse entry.
     DIFFUSE_EVERYWHERE: U32(u32) = 2;
 
+    /// `diffuse` of a lobe of Shirley's; those from here on do not depend on how a profile's light entered.
+    DIFFUSE_SHIRLEY: U32(u32) = 3;
+
+    /// `diffuse` of a lobe of Lommel's and Seeliger's.
+    DIFFUSE_LOMMEL_SEELIGER: U32(u32) = 4;
+
+    /// `diffuse` of a lobe of Hapke's.
+    DIFFUSE_HAPKE: U32(u32) = 5;
+
+    /// `diffuse` of a lobe of Oren's and Nayar's.
+    DIFFUSE_OREN_NAYAR: U32(u32) = 6;
+
+    /// `diffuse` of a lobe of Burley's, as Disney has it.
+    DIFFUSE_DISNEY: U32(u32) = 7;
+
     /// Share of the light that counts as all of it where the reach of a profile is asked for.
     FILTER_QUANTILE: F32(f64) = 0.997;
 

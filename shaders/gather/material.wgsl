@@ -21,6 +21,8 @@ struct MaterialSurface {
     coupling: u32,
     /// How diffuse light depends on its angles: one of the `DIFFUSE_…` constants.
     diffuse: u32,
+    /// Numbers of the diffuse lobe.
+    diffuse_shape: vec3f,
     /// Roughness of a second specular lobe, 0 to 1.
     second_roughness: f32,
     /// Its share of both lobes, 0 to 1.

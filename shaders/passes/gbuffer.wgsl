@@ -1,4 +1,4 @@
-// uses: gather/input, kernel/constants, lib/{angle, medium_angles, noise, numeric_limits, object_transform, slab}, light/{coupling, environment, light, normal_map, shadow, specular_surface, transmission}, the material set
+// uses: gather/input, kernel/constants, lib/{angle, medium_angles, noise, numeric_limits, object_transform, slab}, light/{coupling, diffuse_lobe, environment, light, normal_map, shadow, specular_surface, transmission}, the material set
 
 /// Camera and light from everywhere of one frame.
 struct GBufferFrame {
@@ -123,7 +123,10 @@ fn gbuffer_fragment(interpolated: GBufferInterpolated, @builtin(front_facing) fr
     let second_weight = select(0.0, row.surface.second_weight, translucent);
     let specular = SpecularSurface(coupling, reflectance, roughness, row.surface.second_roughness, second_weight);
     // A sheet has no half-space below it.
-    let diffuse = select(DIFFUSE_LAMBERT, row.surface.diffuse, translucent && !is_thin);
+    let has_brdf = DIFFUSE_LOBES && translucent && !is_thin && row.surface.diffuse >= DIFFUSE_SHIRLEY;
+    let diffuse = select(DIFFUSE_LAMBERT, row.surface.diffuse, translucent && !is_thin && !has_brdf);
+    let lobe =
+        DiffuseLobe(row.surface.diffuse, row.surface.diffuse_shape, surface_albedo, reflectance, roughness);
     let view_cosine = max(dot(normal, towards_camera), LEAST_EXIT_COSINE);
     let medium = medium_angles(diffuse, surface_albedo, reflectance, view_cosine);
     let view_albedo = surface_specular_albedo(specular, view_cosine);
@@ -146,6 +149,9 @@ fn gbuffer_fragment(interpolated: GBufferInterpolated, @builtin(front_facing) fr
             environment_reflection(environment_radiance, environment_sampler, frame.environment, mirrored, roughness);
     }
     var irradiance = around * ambient_share * medium_ambient_entry(medium);
+    if DIFFUSE_LOBES && has_brdf {
+        irradiance *= diffuse_lobe_ambient(lobe, normal, towards_camera);
+    }
     var unscattered = reflected * view_albedo;
     // Irradiance from behind, times what comes through.
     var through = select(vec3f(0.0), around_behind * ambient_share * sheet, is_thin);
@@ -168,7 +174,11 @@ fn gbuffer_fragment(interpolated: GBufferInterpolated, @builtin(front_facing) fr
         let entering_cosine = select(cosine, facing_away, is_behind);
         let entering = entering_share(specular, entering_cosine);
         let angles = entering_angles(medium, entering_cosine);
-        irradiance += arriving * (cosine * entering) * medium_entry(medium, angles);
+        var entered = arriving * (cosine * entering) * medium_entry(medium, angles);
+        if DIFFUSE_LOBES && has_brdf {
+            entered *= diffuse_lobe(lobe, normal, arrival.towards, towards_camera);
+        }
+        irradiance += entered;
         unscattered += arriving * surface_reflection(specular, normal, arrival.towards, towards_camera);
         let behind = arrival.irradiance * (facing_away * entering);
         let is_measured = !is_thin && transmission > 0.0 && is_behind && light.layer != NO_SHADOW_MAP;

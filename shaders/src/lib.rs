@@ -129,6 +129,7 @@ pub const KERNELS: &[Module] = modules![
 /// Light on surfaces: what enters, what is reflected, what comes through.
 pub const LIGHT: &[Module] = modules![
     "light/coupling",
+    "light/diffuse_lobe",
     "light/environment",
     "light/fresnel",
     "light/light",

@@ -45,7 +45,7 @@ impl Medium {
     pub fn of(material: &Material, surface_albedo: [f64; 3], boundary: Boundary) -> Self {
         let entry = match material.diffuse {
             DiffuseLobe::Chandrasekhar(entry) => entry,
-            DiffuseLobe::Lambert => material.profile.model.entry().unwrap_or(Entry::Searchlight),
+            _ => material.profile.model.entry().unwrap_or(Entry::Searchlight),
         };
         let refractive_index = match boundary {
             Boundary::Matched => 1.0,

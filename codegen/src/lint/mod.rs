@@ -1,5 +1,6 @@
 //! Warnings: values that are legal but suspect. One file per family.
 
+mod diffuse;
 mod gaussian_weights;
 mod length;
 mod mixture_weights;
@@ -21,5 +22,6 @@ pub(crate) fn check(material: &Draft<'_>, diagnostics: &mut Vec<Diagnostic>) {
     gaussian_weights::check(material, diagnostics);
     mixture_weights::check(material, diagnostics);
     specular::check(material, diagnostics);
+    diffuse::check(material, diagnostics);
     transmission::check(material, diagnostics);
 }

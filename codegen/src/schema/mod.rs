@@ -16,7 +16,7 @@ mod quantity;
 mod set_file;
 
 pub(crate) use decoder::{Decoder, Given, Tables, Triple};
-pub(crate) use diffuse::{DiffuseGiven, no_entry};
+pub(crate) use diffuse::{DiffuseGiven, no_entry, other_coupling};
 pub(crate) use material::{LengthGiven, MaterialFile, SCHEMA_VERSION, decode_material};
 pub(crate) use medium::{OrMedium, reflectance_at_normal};
 pub(crate) use model::length_word;
