@@ -576,7 +576,7 @@ fn wrong_buffers_are_refused_by_channel_and_pixel() {
       = help: repair the renderer that wrote it, or mark the pixel as background with Z = 0
 
     error: cannot read in.exr: invalid: file identifier missing
-      = help: expected an OpenEXR file with flat (not deep) pixels
+      = help: check the path; expected an OpenEXR file with flat (not deep) pixels
     ");
     assert!(!out.exists());
 }

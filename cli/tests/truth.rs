@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
-use subsurface_cli::picture::exr::write_channels;
+use subsurface_cli::picture::exr::{Channels, write_channels};
 use subsurface_cli::scene::camera::Size;
 use tempfile::TempDir;
 
@@ -62,6 +62,26 @@ fn a_scene_is_exported_in_millimetres_with_the_medium_of_its_material() {
 }
 
 #[test]
+fn an_environment_is_exported_by_channel_with_the_ambient_light() {
+    let folder = tempfile::tempdir().unwrap();
+    let sky = folder.path().join("sky.exr");
+    let size = Size { width: 8, height: 4 };
+    let planes =
+        [("R", 0.5_f32), ("G", 0.25), ("B", 2.0)].map(|(name, value)| (name, vec![value; size.pixels()]));
+    write_channels(&sky, size, planes).unwrap();
+    let arguments =
+        ["--scene", "sphere", "--light=0,-1,0,0", "--ambient", "0.1", "--environment-intensity", "2"];
+    export(&folder, &[&arguments[..], &["--environment", sky.to_str().unwrap()]].concat());
+    for (name, expected) in [("red", 1.1), ("green", 0.6), ("blue", 4.1_f32)] {
+        let file = folder.path().join("out").join(format!("environment_{name}.exr"));
+        let value = Channels::read(&file).unwrap().samples("R", size).unwrap()[0];
+        assert!((value - expected).abs() < 1e-6, "{name}: {value}");
+        let xml = fs::read_to_string(folder.path().join("out").join(name).with_extension("xml")).unwrap();
+        assert!(xml.contains(&format!("environment_{name}.exr")) && !xml.contains("\"constant\""), "{xml}");
+    }
+}
+
+#[test]
 fn what_a_path_tracer_has_otherwise_is_said() {
     let folder = tempfile::tempdir().unwrap();
     let rough = ["--scene", "sphere", "--material", "matched", "--materials"];
@@ -80,6 +100,8 @@ fn what_a_path_tracer_has_otherwise_is_said() {
     assert!(matched.contains("without highlights") && matched.contains("is a thin sheet"), "{matched}");
     let dark = run(&["--light=0,0,-1", "--boundary", "rough"]);
     assert!(dark.contains("cannot be sampled through a rough boundary"), "{dark}");
+    let spot = run(&["--spot", "0,0,1,0,0,-1,60"]);
+    assert!(spot.contains("falls off by the angle"), "{spot}");
     let sky = run(&["--light=0,0,-1,0", "--ambient", "1"]);
     assert!(!sky.contains("boundary"), "{sky}");
     let xml = fs::read_to_string(folder.path().join("green.xml")).unwrap();
@@ -119,7 +141,7 @@ fn a_picture_is_compared_with_a_truth() {
     write_channels(Path::new(&path("broken.exr")), SIZE, ["R", "G", "B"].map(|name| (name, broken.clone())))
         .unwrap();
     let output = subsurface(&["compare", &path("broken.exr"), &path("truth.exr")]);
-    assert!(text(&output.stderr).contains("at pixel (1, 1)"), "{}", text(&output.stderr));
+    assert!(text(&output.stderr).contains("pixel (1, 1) is"), "{}", text(&output.stderr));
 
     write_channels(Path::new(&path("black.exr")), SIZE, ["R", "G", "B"].map(|name| (name, vec![0.0; 384])))
         .unwrap();

@@ -6,10 +6,11 @@ use subsurface_kernel::constants::{
     COUPLING_ENTRY, COUPLING_FULL, COUPLING_NONE, DIFFUSE_DISNEY, DIFFUSE_EVERYWHERE, DIFFUSE_HAPKE,
     DIFFUSE_LAMBERT, DIFFUSE_LOMMEL_SEELIGER, DIFFUSE_OREN_NAYAR, DIFFUSE_SEARCHLIGHT, DIFFUSE_SHIRLEY,
 };
-use subsurface_profile::single_scattering_albedo::Entry;
+use subsurface_profile::single_scattering_albedo::{
+    Entry, diffuse_per_mean_free_path, from_surface_albedo_below,
+};
 use subsurface_profile::{Length, Model};
 
-use crate::lint::diffuse_per_mean_free_path;
 use crate::quality_request::QualityRequest;
 use crate::source::Span;
 use subsurface_kernel::Estimator;
@@ -67,10 +68,31 @@ impl Material {
         match self.profile.model.length() {
             Length::MeanFreePath => length,
             Length::DiffuseMeanFreePath => [0, 1, 2].map(|channel: usize| {
-                length[channel]
-                    / diffuse_per_mean_free_path(self.surface_albedo[channel].min(LARGEST_SURFACE_ALBEDO))
+                let albedo = self.surface_albedo[channel].min(LARGEST_SURFACE_ALBEDO);
+                let index = self.refractive_index.unwrap_or(1.0);
+                let alpha = from_surface_albedo_below(self.entry(), index, albedo);
+                length[channel] / diffuse_per_mean_free_path(alpha)
             }),
         }
+    }
+}
+
+impl Material {
+    /// How the light enters that the surface albedo is for; perpendicular where neither lobe nor profile says.
+    #[must_use]
+    pub fn entry(&self) -> Entry {
+        match self.diffuse {
+            DiffuseLobe::Chandrasekhar(entry) => entry,
+            _ => self.profile.model.entry().unwrap_or(Entry::Searchlight),
+        }
+    }
+
+    /// Refractive index of the boundary that the reflectance at normal incidence F0 = ((η − 1)/(η + 1))² says; that of a
+    /// mirror is 19.
+    #[must_use]
+    pub fn boundary_index(&self) -> f64 {
+        let root = self.reflectance_at_normal.sqrt().min(0.9);
+        (1.0 + root) / (1.0 - root)
     }
 }
 

@@ -5,6 +5,7 @@
 use std::fmt::Write as _;
 
 use subsurface_profile::ModelKind;
+use subsurface_profile::single_scattering_albedo::coefficients_below;
 
 use crate::curves::CurvePlace;
 use crate::material::{Material, Transmittance};
@@ -44,6 +45,14 @@ pub(crate) fn row(
         ("roughness", Value::scalar(material.roughness)),
         ("coupling", Value::U32(material.coupling.number())),
         ("diffuse", Value::U32(material.diffuse.number())),
+        (
+            "albedo_coefficients",
+            Value::vector(coefficients_below(
+                material.entry(),
+                material.refractive_index.unwrap_or_else(|| material.boundary_index()),
+            )),
+        ),
+        ("is_medium", Value::U32(u32::from(material.refractive_index.is_some()))),
         ("diffuse_shape", Value::vector(material.diffuse.shape())),
         ("second_roughness", Value::scalar(material.second_lobe.map_or(0.0, |lobe| lobe.roughness))),
         ("second_weight", Value::scalar(material.second_lobe.map_or(0.0, |lobe| lobe.weight))),

@@ -16,7 +16,7 @@ use crate::material::{Coupling, DiffuseLobe, Material, ResolvedProfile, SecondLo
 use crate::quality_request::QualityRequest;
 use crate::schema::{
     DiffuseGiven, Given, LengthGiven, MaterialFile, OrMedium, ProfileExpression, ProfileFile, SET, SetFile,
-    Triple, no_entry, other_coupling, reflectance_at_normal, rounded,
+    Triple, clear_medium, no_entry, other_coupling, reflectance_at_normal, rounded,
 };
 use crate::source::{FileId, Span, Spanned};
 use crate::suggestion::{closest, list, shortened};
@@ -303,6 +303,10 @@ impl Resolution {
             OrMedium::Value(length) => length.clone(),
             OrMedium::Medium(medium) => medium.length(profile.model.length()),
         };
+        if let Some(channel) = length.value.values.iter().position(|value| value.is_infinite()) {
+            self.diagnostics.push(clear_medium(&length, inherited.surface_albedo.value(), channel));
+            return None;
+        }
         let surface_albedo = match inherited.surface_albedo.value()? {
             OrMedium::Value(surface_albedo) => surface_albedo.clone(),
             OrMedium::Medium(medium) => medium.surface_albedo(self.entry(&profile, diffuse, &medium.key)),

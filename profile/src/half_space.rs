@@ -1,6 +1,6 @@
 //! What a half-space reflects, by the angle at which light enters or leaves.
 
-use crate::single_scattering_albedo::{DIFFUSE, Entry, root};
+use crate::single_scattering_albedo::{DIFFUSE, Entry, root_below};
 
 /// Coefficients of 1, γ and γ² of p₀, p₁ − 1 and p₂ over 1 − γ; their twins in WGSL take them from here.
 pub(crate) const ANGLES: [[f64; 3]; 3] =
@@ -39,7 +39,13 @@ pub struct HalfSpace {
 impl HalfSpace {
     /// The medium whose surface albedo is A, clamped to [0, 1], where light enters as `entry` says.
     pub fn of(entry: Entry, surface_albedo: f64) -> Self {
-        Self { entry, root: root(entry, surface_albedo) }
+        Self::below(entry, 1.0, surface_albedo)
+    }
+
+    /// The medium whose surface albedo below a boundary to a medium of `refractive_index` times less is A. What this type
+    /// says of it is as if there were none: cosines are those inside.
+    pub fn below(entry: Entry, refractive_index: f64, surface_albedo: f64) -> Self {
+        Self { entry, root: root_below(entry, refractive_index, surface_albedo) }
     }
 
     /// A(μ): share of the light that enters at the cosine μ > 0 and returns, in all directions together.

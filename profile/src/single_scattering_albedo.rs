@@ -16,7 +16,8 @@
 pub enum Entry {
     /// A pencil of light, perpendicular to the surface.
     Searchlight,
-    /// Directions distributed by the cosine, as below a rough surface.
+    /// From all directions with the same radiance, outside: distributed by the cosine, and refracted where there is a
+    /// boundary.
     Diffuse,
 }
 
@@ -57,8 +58,11 @@ impl Entry {
 ///
 /// The argument is clamped to [0, 1]; 0 gives exactly 0 and 1 exactly 1. NaN gives NaN.
 pub fn from_surface_albedo(entry: Entry, surface_albedo: f64) -> f64 {
+    from_albedo(entry.rational(), surface_albedo)
+}
+
+fn from_albedo([c1, c2, c3]: [f64; 3], surface_albedo: f64) -> f64 {
     let a = surface_albedo.clamp(0.0, 1.0);
-    let [c1, c2, c3] = entry.rational();
     let denominator = 1.0 + (c2 + c3 * a) * a;
     let q = (1.0 - a) * (1.0 + c1 * a) / denominator;
     if a < 0.5 {
@@ -69,10 +73,10 @@ pub fn from_surface_albedo(entry: Entry, surface_albedo: f64) -> f64 {
     }
 }
 
-/// q = √(1 - α) of the medium whose surface albedo is `surface_albedo`, clamped to [0, 1].
-pub(crate) fn root(entry: Entry, surface_albedo: f64) -> f64 {
+/// q = √(1 - α) of the medium whose surface albedo is `surface_albedo`, clamped to [0, 1], below a boundary.
+pub(crate) fn root_below(entry: Entry, refractive_index: f64, surface_albedo: f64) -> f64 {
     let a = surface_albedo.clamp(0.0, 1.0);
-    let [c1, c2, c3] = entry.rational();
+    let [c1, c2, c3] = coefficients_below(entry, refractive_index);
     (1.0 - a) * (1.0 + c1 * a) / (1.0 + (c2 + c3 * a) * a)
 }
 
@@ -84,8 +88,11 @@ pub(crate) fn root(entry: Entry, surface_albedo: f64) -> f64 {
 /// Near 1 the surface albedo is steep in α, 1 - A ∝ √(1 - α), so one unit in the last place of α is up to
 /// 1e-8 of A.
 pub fn to_surface_albedo(entry: Entry, single_scattering_albedo: f64) -> f64 {
+    to_albedo(entry.rational(), single_scattering_albedo)
+}
+
+fn to_albedo([c1, c2, c3]: [f64; 3], single_scattering_albedo: f64) -> f64 {
     let alpha = single_scattering_albedo.clamp(0.0, 1.0);
-    let [c1, c2, c3] = entry.rational();
     let q = (1.0 - alpha).sqrt();
     // (1 - A)(1 + c₁A) = q(1 + c₂A + c₃A²) is quadratic A² + linear A - (1 - q) = 0 with one positive root.
     let quadratic = c1 + c3 * q;
@@ -98,21 +105,18 @@ pub fn to_surface_albedo(entry: Entry, single_scattering_albedo: f64) -> f64 {
     if alpha == 1.0 { 1.0 } else { surface_albedo.clamp(0.0, 1.0) }
 }
 
-/// q(A) of a medium of this refractive index: straight between those that were fitted.
-fn root_below(entry: Entry, refractive_index: f64, surface_albedo: f64) -> f64 {
+/// c₁, c₂ and c₃ of q(A) below a boundary to a medium of `refractive_index` times less, clamped to
+/// [1, [`LARGEST_REFRACTIVE_INDEX`]]: straight between those that were fitted.
+pub fn coefficients_below(entry: Entry, refractive_index: f64) -> [f64; 3] {
     let index = refractive_index.clamp(1.0, LARGEST_REFRACTIVE_INDEX);
     let upper = BELOW.iter().position(|(node, _)| *node >= index).unwrap_or(BELOW.len() - 1).max(1);
     let [(low, below), (high, above)] = [BELOW[upper - 1], BELOW[upper]];
-    let of_node = |coefficients: [[f64; 3]; 2]| {
-        let [c1, c2, c3] = match entry {
-            Entry::Searchlight => coefficients[0],
-            Entry::Diffuse => coefficients[1],
-        };
-        let a = surface_albedo;
-        (1.0 - a) * (1.0 + c1 * a) / (1.0 + (c2 + c3 * a) * a)
+    let of_entry = match entry {
+        Entry::Searchlight => 0,
+        Entry::Diffuse => 1,
     };
     let part = (index - low) / (high - low);
-    of_node(below) * (1.0 - part) + of_node(above) * part
+    [0, 1, 2].map(|k: usize| below[of_entry][k] * (1.0 - part) + above[of_entry][k] * part)
 }
 
 /// α of the medium whose surface albedo is `surface_albedo`, below a boundary to a medium of `refractive_index` times
@@ -121,27 +125,13 @@ fn root_below(entry: Entry, refractive_index: f64, surface_albedo: f64) -> f64 {
 /// Arguments are clamped: the albedo to [0, 1], the index to [1, [`LARGEST_REFRACTIVE_INDEX`]]. NaN gives NaN. Without a
 /// boundary this is [`from_surface_albedo`].
 pub fn from_surface_albedo_below(entry: Entry, refractive_index: f64, surface_albedo: f64) -> f64 {
-    if refractive_index <= 1.0 {
-        return from_surface_albedo(entry, surface_albedo);
-    }
-    let q = root_below(entry, refractive_index, surface_albedo.clamp(0.0, 1.0));
-    (1.0 - q) * (1.0 + q)
+    from_albedo(coefficients_below(entry, refractive_index), surface_albedo)
 }
 
 /// A of the medium whose single-scattering albedo is `single_scattering_albedo` below such a boundary: the inverse of
-/// [`from_surface_albedo_below`], to twelve digits.
+/// [`from_surface_albedo_below`].
 pub fn to_surface_albedo_below(entry: Entry, refractive_index: f64, single_scattering_albedo: f64) -> f64 {
-    if refractive_index <= 1.0 || !(single_scattering_albedo > 0.0 && single_scattering_albedo < 1.0) {
-        return to_surface_albedo(entry, single_scattering_albedo);
-    }
-    let q = (1.0 - single_scattering_albedo).sqrt();
-    // q(A) falls from 1 to 0.
-    let (mut low, mut high) = (0.0, 1.0);
-    for _ in 0..60 {
-        let middle = 0.5 * (low + high);
-        if root_below(entry, refractive_index, middle) > q { low = middle } else { high = middle }
-    }
-    0.5 * (low + high)
+    to_albedo(coefficients_below(entry, refractive_index), single_scattering_albedo)
 }
 
 /// ℓ_d/ℓ of a medium whose single-scattering albedo is α: the diffuse mean free path 1/σtr over the mean free path 1/σt.

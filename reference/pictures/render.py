@@ -67,7 +67,9 @@ def coverage(scene, shape):
                 for dx in steps:
                     place = mitsuba.Point2f((x + dx) / width, (y + dy) / height)
                     ray, _ = sensor.sample_ray(0.0, 0.5, place, mitsuba.Point2f(0.5, 0.5))
-                    covered[y, x] += scene.ray_test(ray)
+                    hit = scene.ray_intersect(ray)
+                    # A lamp in view is no object.
+                    covered[y, x] += hit.is_valid() and not hit.shape.is_emitter()
     return covered / RAYS_PER_EDGE**2
 
 

@@ -7,7 +7,7 @@ mod gpu;
 use std::f64::consts::PI;
 
 use gpu::{Gpu, compile};
-use subsurface_profile::single_scattering_albedo::Entry;
+use subsurface_profile::single_scattering_albedo::{Entry, to_surface_albedo};
 use subsurface_profile::{Channel, HalfSpace, Medium, Model, Slab};
 use subsurface_runtime::{
     Bounds, Camera, CompositeSettings, DirectionalLight, Extent, Frame, Geometry, Light, LoadedKernel,
@@ -473,7 +473,7 @@ fn a_boundary_makes_angles_alike() {
     let gpu = Gpu::open();
     let index = (1.0 + REFLECTANCE_AT_NORMAL.sqrt()) / (1.0 - REFLECTANCE_AT_NORMAL.sqrt());
     let below = |cosine: f64| (1.0 - (1.0 - cosine * cosine) / (index * index)).sqrt();
-    let media = SURFACE_ALBEDO.map(|albedo| HalfSpace::of(Entry::Searchlight, albedo));
+    let media = SURFACE_ALBEDO.map(|albedo| HalfSpace::below(Entry::Searchlight, index, albedo));
     // 2 ∫ A(μ′) μ dμ by many steps.
     let mean = |medium: &HalfSpace| {
         let cosines = (0..1000).map(|step| (f64::from(step) + 0.5) / 1000.0);
@@ -708,5 +708,25 @@ fn every_lobe_is_reciprocal_and_has_its_mean() {
         let found = mean(fields);
         // Twelve directions stand for all, and four of view.
         assert!((found - 1.0).abs() < 0.02, "{fields}: {found}");
+    }
+}
+
+#[test]
+fn a_medium_given_by_its_coefficients_lets_through_what_they_say() {
+    let gpu = Gpu::open();
+    let material = "Material(profile: \"two_exponential_dipole_searchlight\", transmittance: Slab, diffuse: Lambert, \
+                    specular: (coupling: None), medium: (reduced_scattering_per_mm: (1.09, 1.59, 1.79), \
+                    absorption_per_mm: (0.013, 0.07, 0.145), refractive_index: 1.3))";
+    let mut scene = Scene::new(&gpu, material, &[block([0.15, 0.15, 1e-3])]);
+    let [_, found] = scene.middle(behind(0.0), Bounds::new([0.0; 3], 0.25));
+    for (channel, (scattering, absorption)) in
+        [(1.09, 0.013), (1.59, 0.07), (1.79, 0.145_f64)].into_iter().enumerate()
+    {
+        let (extinction, alpha) = (scattering + absorption, scattering / (scattering + absorption));
+        // The slab's law is for a medium without a boundary.
+        let matched = to_surface_albedo(Entry::Searchlight, alpha);
+        let law =
+            Slab::new(Medium::new(matched, 1.0 / extinction).expect("in the domain")).transmittance(2.0);
+        assert!((found[channel] / law - 1.0).abs() < 0.02, "{channel}: {found:?}, not {law}");
     }
 }

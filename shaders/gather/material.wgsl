@@ -21,6 +21,10 @@ struct MaterialSurface {
     coupling: u32,
     /// How diffuse light depends on its angles: one of the `DIFFUSE_…` constants.
     diffuse: u32,
+    /// c₁, c₂, c₃ of the root of 1 − α by the surface albedo, of a medium below the material's boundary.
+    albedo_coefficients: vec3f,
+    /// 1: the medium was given by its coefficients, and the surface albedo is that below the boundary.
+    is_medium: u32,
     /// Numbers of the diffuse lobe.
     diffuse_shape: vec3f,
     /// Roughness of a second specular lobe, 0 to 1.

@@ -10,12 +10,16 @@
 /// Least cosine: there ln(1 + 1/μ) is 9, and μ times it less than what half floats hold.
 const LEAST_COSINE: f32 = 1e-4;
 
-/// γ of media with these surface albedos, for light from everywhere or for perpendicular entry:
-/// (1 − A)(1 + c₁A)/(1 + c₂A + c₃A²).
-fn half_space_roots(is_diffuse: bool, surface_albedo: vec3f) -> vec3f {
-    let c = select(SEARCHLIGHT_ALBEDO, DIFFUSE_ALBEDO, is_diffuse);
+/// γ of media with these surface albedos: (1 − A)(1 + c₁A)/(1 + c₂A + c₃A²).
+fn half_space_roots(coefficients: vec3f, surface_albedo: vec3f) -> vec3f {
+    let c = coefficients;
     let a = clamp(surface_albedo, vec3f(0.0), vec3f(1.0));
     return (1.0 - a) * (1.0 + c.x * a) / (1.0 + (c.y + c.z * a) * a);
+}
+
+/// γ of media without a boundary with these surface albedos in light from everywhere.
+fn diffuse_half_space_roots(surface_albedo: vec3f) -> vec3f {
+    return half_space_roots(DIFFUSE_ALBEDO, surface_albedo);
 }
 
 /// u.

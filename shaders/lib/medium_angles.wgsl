@@ -1,4 +1,4 @@
-// uses: kernel/constants, lib/half_space
+// uses: kernel/constants, lib/half_space, profile/constants
 
 // Diffuse light by the angles at which it enters and leaves a medium: a profile is for one way of entry, and light that
 // enters at a slant returns more.
@@ -31,15 +31,22 @@ fn inverse_square_index(reflectance_at_normal: f32) -> f32 {
     return inverse * inverse;
 }
 
-/// The angles of a medium whose light leaves at a cosine, through a boundary that reflects F₀.
-fn medium_angles(diffuse: u32, surface_albedo: vec3f, reflectance_at_normal: f32, leaving: f32) -> MediumAngles {
+/// The angles of a medium whose light leaves at a cosine, through a boundary that reflects F₀; `coefficients` are those
+/// of its root below it.
+fn medium_angles(
+    diffuse: u32,
+    coefficients: vec3f,
+    surface_albedo: vec3f,
+    reflectance_at_normal: f32,
+    leaving: f32,
+) -> MediumAngles {
     let inverse_square = inverse_square_index(reflectance_at_normal);
-    let root = half_space_roots(diffuse == DIFFUSE_EVERYWHERE, surface_albedo);
+    let root = half_space_roots(coefficients, surface_albedo);
     let below = refracted_cosine(leaving, inverse_square);
     let u_at_normal = half_space_u(1.0, root);
     let at_normal = relative_half_space_albedo(u_at_normal, root);
-    let of_profile = select(relative_diffuse_albedo(root), at_normal, diffuse == DIFFUSE_SEARCHLIGHT);
     let everywhere = relative_diffuse_albedo_below(root, inverse_square);
+    let of_profile = select(everywhere, at_normal, diffuse == DIFFUSE_SEARCHLIGHT);
     let u = half_space_u(below, root);
     let is_matched = inverse_square >= 1.0;
     let pairing = (1.0 + root) * everywhere / (4.0 * u);
@@ -67,6 +74,12 @@ struct EnteringAngles {
     /// u and H of the medium there.
     u: vec3f,
     h: vec3f,
+}
+
+/// Surface albedo of the medium without a boundary, under perpendicular light.
+fn matched_albedo(medium: MediumAngles) -> vec3f {
+    let u = half_space_u(1.0, medium.root);
+    return (1.0 - medium.root) * relative_half_space_albedo(u, medium.root);
 }
 
 fn entering_angles(medium: MediumAngles, cosine: f32) -> EnteringAngles {
@@ -135,7 +148,8 @@ fn exit_of(packed: f32, surface_albedo: vec3f) -> vec3f {
         return vec3f(1.0);
     }
     let diffuse = u32(ceil(packed)) - 1u;
-    let root = half_space_roots(diffuse == DIFFUSE_EVERYWHERE, surface_albedo);
+    let c = select(SEARCHLIGHT_ALBEDO, DIFFUSE_ALBEDO, diffuse == DIFFUSE_EVERYWHERE);
+    let root = half_space_roots(c, surface_albedo);
     let u = half_space_u(packed - f32(diffuse), root);
     return relative_half_space_albedo(u, root) / relative_diffuse_albedo(root);
 }

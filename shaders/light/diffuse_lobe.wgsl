@@ -79,7 +79,7 @@ fn lommel_seeliger_lobe(entering: f32, leaving: f32) -> f32 {
 /// α/(4 A (μ_l + μ_v)) [(1 + B) P + H(μ_l) H(μ_v) − 1], B = B₀/(1 + tan(g/2)/h) (Hapke 1981), with the half-space's own
 /// H. `towards` is cos g.
 fn hapke_lobe(shape: vec3f, surface_albedo: vec3f, entering: f32, leaving: f32, towards: f32) -> vec3f {
-    let root = half_space_roots(true, surface_albedo);
+    let root = diffuse_half_space_roots(surface_albedo);
     let h = half_space_h(half_space_u(entering, root), root) * half_space_h(half_space_u(leaving, root), root);
     // tan²(g/2) = (1 − cos g)/(1 + cos g).
     let tangent = sqrt(max(1.0 - towards, 0.0) / max(1.0 + towards, 1e-6));

@@ -88,7 +88,8 @@ fn shadow_visibility(
     for (var tap = 0u; tap < taps; tap += 1u) {
         let offset = radius * vogel_radius(tap, SOFT_SHADOW_TAPS) * direction;
         direction = next_vogel_direction(direction);
-        let depth = receiver.depth + dot(receiver.slope, offset);
+        // Where nothing is the map has 1, whatever the plane has.
+        let depth = min(receiver.depth + dot(receiver.slope, offset), 1.0);
         lit += textureSampleCompareLevel(maps, comparison, receiver.coordinate + offset, light.layer, depth);
     }
     return select(hard, select(1.0, lit / f32(SOFT_SHADOW_TAPS), taps > 0u), is_soft);
@@ -129,7 +130,7 @@ fn hard_shadow(
             shadow_map_depth(maps, texel + vec2i(3, 0), size, light.layer),
         );
         let planes = plane + slope.y * f32(row) + slope.x * vec4f(0.0, 1.0, 2.0, 3.0);
-        lit += down[row] * dot(across, select(vec4f(0.0), vec4f(1.0), depths >= planes));
+        lit += down[row] * dot(across, select(vec4f(0.0), vec4f(1.0), depths >= min(planes, vec4f(1.0))));
     }
     return lit;
 }
@@ -157,7 +158,7 @@ fn penumbra_radius(
         direction = next_vogel_direction(direction);
         let texel = vec2i(floor((receiver.coordinate + offset) * texels));
         let depth = shadow_map_depth(maps, texel, vec2i(i32(texels)), light.layer);
-        let blocks = select(0.0, 1.0, depth < receiver.depth + dot(receiver.slope, offset));
+        let blocks = select(0.0, 1.0, depth < min(receiver.depth + dot(receiver.slope, offset), 1.0));
         blockers += blocks;
         depths += blocks * depth;
     }

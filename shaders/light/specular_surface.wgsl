@@ -34,6 +34,11 @@ fn surface_specular_albedo(surface: SpecularSurface, cosine: f32) -> f32 {
     return first + surface.second_weight * (second - first);
 }
 
+/// E(μ) of the second alone.
+fn second_specular_albedo(surface: SpecularSurface, cosine: f32) -> f32 {
+    return specular_albedo(cosine, surface.second_roughness, surface.reflectance_at_normal);
+}
+
 /// Ē of both.
 fn surface_specular_albedo_mean(surface: SpecularSurface) -> f32 {
     let first = specular_albedo_mean(surface.roughness, surface.reflectance_at_normal);

@@ -35,6 +35,7 @@ fn transmitted_share(
     surface: MaterialSurface,
     profiles: ChannelProfiles,
     surface_albedo: vec3f,
+    slab_albedo: vec3f,
 ) -> vec3f {
     let facing_away = max(-dot(normal, towards), 0.0);
     // A texel's neighbours, and half the disc: a rim as round as that stays outside.
@@ -64,7 +65,7 @@ fn transmitted_share(
         let found_mm = thickness_between(way_mm, moved_mm, facing_away, parallel);
         // Where the map saw nothing, nothing comes through: what was not measured does not glow.
         let counts = select(0.0, 1.0, lit.is_seen);
-        through += counts * slab_transmittance(surface_albedo, surface.slab_mean_free_path_mm, found_mm);
+        through += counts * slab_transmittance(slab_albedo, surface.slab_mean_free_path_mm, found_mm);
         thickness_mm += counts * found_mm;
         seen += counts;
     }

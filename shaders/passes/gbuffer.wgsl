@@ -128,31 +128,47 @@ fn gbuffer_fragment(interpolated: GBufferInterpolated, @builtin(front_facing) fr
     let lobe =
         DiffuseLobe(row.surface.diffuse, row.surface.diffuse_shape, surface_albedo, reflectance, roughness);
     let view_cosine = max(dot(normal, towards_camera), LEAST_EXIT_COSINE);
-    let medium = medium_angles(diffuse, surface_albedo, reflectance, view_cosine);
+    let coefficients = row.surface.albedo_coefficients;
+    let medium = medium_angles(diffuse, coefficients, surface_albedo, reflectance, view_cosine);
+    // A slab's law is for a medium without a boundary; the albedo of a material that does not give its medium counts as
+    // that.
+    let slab_albedo = select(surface_albedo, matched_albedo(medium), row.surface.is_medium != 0u);
     let view_albedo = surface_specular_albedo(specular, view_cosine);
     let ambient_share = entering_ambient_share(specular);
     let leaving = leaving_share(specular, view_albedo, ambient_share);
     let sheet_length = row.surface.slab_mean_free_path_mm;
     var sheet = vec3f(0.0);
     if THIN_SHEETS {
-        sheet = slab_transmittance(surface_albedo, sheet_length, row.surface.thin_thickness_mm);
+        sheet = slab_transmittance(slab_albedo, sheet_length, row.surface.thin_thickness_mm);
     }
 
     var around = frame.ambient_irradiance;
     var around_behind = frame.ambient_irradiance;
     var reflected = frame.ambient_irradiance / PI;
+    var mirrored_by_second = reflected;
     if HAS_ENVIRONMENT {
         let mirrored = reflect(-towards_camera, normal);
         around += environment_irradiance(frame.environment, normal);
         around_behind += environment_irradiance(frame.environment, -normal);
+        let environment = frame.environment;
         reflected +=
-            environment_reflection(environment_radiance, environment_sampler, frame.environment, mirrored, roughness);
+            environment_reflection(environment_radiance, environment_sampler, environment, mirrored, roughness);
+        if SECOND_LOBES {
+            let second = row.surface.second_roughness;
+            mirrored_by_second +=
+                environment_reflection(environment_radiance, environment_sampler, environment, mirrored, second);
+        }
     }
     var irradiance = around * ambient_share * medium_ambient_entry(medium);
     if DIFFUSE_LOBES && has_brdf {
         irradiance *= diffuse_lobe_ambient(lobe, normal, towards_camera);
     }
     var unscattered = reflected * view_albedo;
+    if SECOND_LOBES {
+        // Each lobe sends back its own blur of the environment.
+        let second = specular.second_weight * second_specular_albedo(specular, view_cosine);
+        unscattered = reflected * (view_albedo - second) + mirrored_by_second * second;
+    }
     // Irradiance from behind, times what comes through.
     var through = select(vec3f(0.0), around_behind * ambient_share * sheet, is_thin);
     let noise = interleaved_gradient_noise(vec2i(interpolated.clip_position.xy), 0u);
@@ -163,7 +179,10 @@ fn gbuffer_fragment(interpolated: GBufferInterpolated, @builtin(front_facing) fr
         let true_cosine = dot(smooth_normal, arrival.towards);
         let is_behind = true_cosine < 0.0;
         // A sheet is seen from the light on either side.
-        let shaded_normal = select(1.0, -1.0, is_thin && is_behind) * flat_normal;
+        let side = select(1.0, -1.0, is_thin && is_behind);
+        // A triangle at the terminator may face away where its smooth normal does not.
+        let is_flat = side * dot(flat_normal, arrival.towards) > 0.0;
+        let shaded_normal = side * select(smooth_normal, flat_normal, is_flat);
         let visibility = shadow_visibility(shadow_maps, shadow_comparison, light, position, shaded_normal, noise);
         // A bent normal must not light a point whose true surface faces away: fade out over the last 7 degrees, where
         // bent and true normals may disagree. Without a normal map they never do.
@@ -183,7 +202,15 @@ fn gbuffer_fragment(interpolated: GBufferInterpolated, @builtin(front_facing) fr
         let behind = arrival.irradiance * (facing_away * entering);
         let is_measured = !is_thin && transmission > 0.0 && is_behind && light.layer != NO_SHADOW_MAP;
         let share = transmitted_share(
-            is_measured, light, arrival.towards, position, smooth_normal, row.surface, profiles, surface_albedo,
+            is_measured,
+            light,
+            arrival.towards,
+            position,
+            smooth_normal,
+            row.surface,
+            profiles,
+            surface_albedo,
+            slab_albedo,
         );
         through += behind * select(share * medium_through(medium, angles), visibility * sheet, is_thin);
     }
@@ -204,7 +231,7 @@ fn gbuffer_fragment(interpolated: GBufferInterpolated, @builtin(front_facing) fr
     targets.surface = vec4f(surface_albedo, select(-1.0, f32(object.material), translucent));
     if THIN_SHEETS && is_thin {
         // A sheet sends back what a slab does, from where it entered.
-        let sent_back = slab_reflectance(surface_albedo, sheet_length, row.surface.thin_thickness_mm);
+        let sent_back = slab_reflectance(slab_albedo, sheet_length, row.surface.thin_thickness_mm);
         targets.surface = vec4f(sent_back, -1.0);
     }
     return targets;

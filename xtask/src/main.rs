@@ -1,10 +1,11 @@
-//! The commands of the README: `cargo xtask demo`, `test`, `ci`, `bless`, `accuracy`, `tables` and `shader-cost`.
+//! The commands of the README: `cargo xtask demo`, `test`, `ci`, `bless`, `accuracy`, `pictures`, `tables` and
+//! `shader-cost`.
 
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "a command line speaks to its user")]
 
-mod accuracy;
 mod driver;
 mod gate;
+mod page;
 mod shader_cost;
 mod shell;
 mod tables;
@@ -32,6 +33,9 @@ Commands:
   accuracy [--check]
           Write docs/accuracy.md and its figures by running the commands that stand in xtask/accuracy.md; with
           --check, write nothing and fail where the files in docs differ from what the commands give
+  pictures
+          Write docs/pictures.md and its sheets by running the commands that stand in xtask/pictures.md: pictures against
+          those of a path tracer in reference/pictures
   tables [--check]
           Write the tables of README.md and materials/README.md that commands print; with --check, write nothing and
           fail where they differ
@@ -56,7 +60,8 @@ fn main() -> ExitCode {
         Some("test") => test(&rest),
         Some("ci") => gate::run_command(&rest),
         Some("bless") => bless(&rest),
-        Some("accuracy") => accuracy::run_command(&rest),
+        Some("accuracy") => page::ACCURACY.run_command(&rest),
+        Some("pictures") => page::PICTURES.run_command(&rest),
         Some("tables") => tables::run_command(&rest),
         Some("shader-cost") => shader_cost::run_command(&rest),
         Some("help" | "--help" | "-h") => {

@@ -5,8 +5,8 @@
 
 use std::path::Path;
 
-use crate::accuracy::{read, subsurface};
 use crate::driver::Build;
+use crate::page::{read, subsurface};
 use crate::shell::{self, Failure};
 
 /// The pages, from the root.

@@ -36,7 +36,7 @@ pub struct CompareArguments {
     pub exposure: f32,
     /// Also write the error as a picture: red where there is too much light, blue where there is too little, in full
     /// colour from a quarter of the truth's mean on.
-    #[arg(long, value_name = "ERROR.png")]
+    #[arg(long, value_name = "ERROR.png", value_parser = super::contact_sheet::png)]
     pub map: Option<PathBuf>,
 }
 

@@ -52,7 +52,8 @@ pub struct ContactSheetArguments {
     pub out: PathBuf,
 }
 
-fn png(text: &str) -> Result<PathBuf, String> {
+/// A file's name, which must end in .png.
+pub(super) fn png(text: &str) -> Result<PathBuf, String> {
     match PictureFile::parse(text) {
         Ok(PictureFile::Png(path)) => Ok(path),
         _ => Err("the name must end in .png".into()),

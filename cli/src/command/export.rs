@@ -5,11 +5,13 @@ use super::render::{DEFAULT_MATERIAL, material_of_object};
 use super::view::{MeshArguments, ViewArguments, load_scene};
 use crate::failure::{Explain, Failure, warning};
 use crate::mitsuba::{Boundary, CHANNELS, Exported, Medium, flaws, ply, xml};
+use crate::picture::LinearPicture;
 use crate::picture::exr::write_exr;
 use crate::picture::file::write_atomically;
 use crate::progress::Spinner;
 use crate::say;
 use crate::scene::camera::Size;
+use crate::scene::environment::Environment;
 use crate::scene::light::Light;
 use crate::scene::{Object, Surface};
 use clap::{Args, ValueEnum};
@@ -51,9 +53,6 @@ pub struct ExportArguments {
     pub out: PathBuf,
 }
 
-/// Name of the environment's image.
-const SKY: &str = "environment.exr";
-
 /// Path tracers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Program {
@@ -82,6 +81,9 @@ enum Difference {
     NormalMap { object: String },
     Thin { material: String },
     GuessedEntry { material: String },
+    SecondLobe { material: String },
+    Strength { material: String },
+    Spot,
 }
 
 impl fmt::Display for Difference {
@@ -103,6 +105,16 @@ impl fmt::Display for Difference {
             Self::Thin { material } => {
                 write!(f, "`{material}` is a thin sheet: what its mesh bounds is exported as filled")
             }
+            Self::SecondLobe { material } => {
+                write!(f, "the second specular lobe of `{material}` is not exported")
+            }
+            Self::Strength { material } => {
+                write!(f, "`{material}` has a transmission strength, which a medium cannot have")
+            }
+            Self::Spot => write!(
+                f,
+                "the edge of a spot's cone falls off by the angle, not by the cosine's square, and the lamp is a point"
+            ),
             Self::GuessedEntry { material } => write!(
                 f,
                 "the profile of `{material}` does not say how light enters: perpendicular entry is taken"
@@ -125,6 +137,9 @@ impl Explain for Difference {
                 Self::MeanAlbedo { .. } | Self::NormalMap { .. } => {
                     "compare with a picture of the same mesh without it"
                 }
+                Self::SecondLobe { .. } => "compare with a picture of a material without it",
+                Self::Strength { .. } => "compare with a picture of a material whose strength is 1",
+                Self::Spot => "compare within the cone's inner nine tenths",
                 Self::Thin { .. } => "give the mesh the sheet's thickness, and the material no `thin`",
                 Self::GuessedEntry { .. } => {
                     "name a published profile, or `diffuse: Chandrasekhar(entry: …)`"
@@ -163,18 +178,26 @@ pub fn run(arguments: &ExportArguments) -> Result<(), Failure> {
         exported.push(Exported { file, medium });
     }
     drop(spinner);
+    if lights.iter().any(|light| matches!(light, Light::Spot(_))) {
+        differences.push(Difference::Spot);
+    }
     for (index, difference) in differences.iter().enumerate() {
         if !differences[..index].contains(difference) {
             eprintln!("{}\n", warning(difference));
         }
     }
     let environment = arguments.view.environment()?;
-    if let Some(environment) = &environment {
-        write_exr(&arguments.out.join(SKY), &environment.radiance)?;
-    }
-    let sky = environment.as_ref().map(|environment| (SKY, environment));
     for (channel, name) in CHANNELS.into_iter().enumerate() {
         let path = arguments.out.join(name).with_extension("xml");
+        let sky = match &environment {
+            Some(environment) => {
+                let file = format!("environment_{name}.exr");
+                let image = of_channel(environment, channel, arguments.view.ambient);
+                write_exr(&arguments.out.join(&file), &image)?;
+                Some((file, environment.turn_radians))
+            }
+            None => None,
+        };
         let text = xml(channel, &exported, &camera, &lights, arguments.view.ambient, sky, arguments.size);
         write_atomically(&path, text.as_bytes())?;
         say!("{}", path.display());
@@ -196,6 +219,12 @@ fn medium(
     if material.profile.model.entry().is_none() {
         differences.push(Difference::GuessedEntry { material: name() });
     }
+    if material.transmission_strength != 1.0 {
+        differences.push(Difference::Strength { material: name() });
+    }
+    if material.second_lobe.is_some() {
+        differences.push(Difference::SecondLobe { material: name() });
+    }
     if object.surface.normal_map.is_some() {
         differences.push(Difference::NormalMap { object: object.name.clone() });
     }
@@ -216,6 +245,14 @@ fn medium(
     }
     let boundary = if is_rough { own } else { Boundary::Matched };
     (Medium::of(material, surface_albedo(&object.surface, material), boundary), boundary)
+}
+
+/// One channel of an environment as grey, with its intensity, and light from everywhere alike: a scene of Mitsuba's has
+/// one emitter around it.
+fn of_channel(environment: &Environment, channel: usize, ambient: f32) -> LinearPicture {
+    let grey = |pixel: &[f32; 3]| [environment.intensity * pixel[channel] + ambient; 3];
+    let LinearPicture { size, pixels } = &environment.radiance;
+    LinearPicture { size: *size, pixels: pixels.iter().map(grey).collect() }
 }
 
 /// Whether a light has no size.

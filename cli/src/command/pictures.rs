@@ -31,7 +31,7 @@ pub struct PicturesArguments {
     #[arg(long = "truth", value_name = "NAME")]
     pub names: Vec<String>,
     /// Also draw a sheet: of each truth what there is without subsurface scattering, the picture, the truth, and the error.
-    #[arg(long, value_name = "FILE.png")]
+    #[arg(long, value_name = "FILE.png", value_parser = super::contact_sheet::png)]
     pub sheet: Option<PathBuf>,
 }
 

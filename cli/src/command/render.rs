@@ -4,12 +4,12 @@ use super::kernel::KernelArguments;
 use super::material_set;
 use super::view::{MeshArguments, ViewArguments, load_scene};
 use crate::draw::{Drawn, Frame, Shown, Studio};
-use crate::failure::Failure;
+use crate::failure::{Failure, warning};
 use crate::picture::{exr, file, write_png};
 use crate::progress::Spinner;
 use crate::say;
-use crate::scene::Scene;
 use crate::scene::camera::Size;
+use crate::scene::{Scene, light_warning};
 use clap::builder::{PossibleValuesParser, TypedValueParser as _};
 use clap::{Args, value_parser};
 use std::path::{Path, PathBuf};
@@ -121,13 +121,17 @@ pub fn run(arguments: &RenderArguments) -> Result<(), Failure> {
     let mut studio = Studio::open(&materials, arguments.kernel.route.chosen())?;
     let scene = load_scene(&arguments.mesh)?;
     let environment = arguments.view.environment()?;
+    let lights = arguments.view.lights();
+    for suspect in light_warning::warnings(&lights, &scene.bounds) {
+        eprintln!("{}\n", warning(&suspect));
+    }
     let drawn = {
         let _spinner = Spinner::new("drawing");
         studio.draw(&Frame {
             scene: &scene,
             material_of_object: &material_of_object(&scene, &materials, material),
             camera: arguments.view.camera(&scene, arguments.size)?,
-            lights: &arguments.view.lights(),
+            lights: &lights,
             ambient_intensity: arguments.view.ambient,
             environment: environment.as_ref(),
             size: arguments.size,

@@ -130,7 +130,7 @@ pub struct ViewArguments {
     /// Factor on the environment.
     #[arg(long, value_name = "X", default_value_t = 1.0, requires = "environment", value_parser = number::intensity, allow_hyphen_values = true)]
     pub environment_intensity: f32,
-    /// Turn of the environment about the vertical, in degrees.
+    /// Turn of the environment about the vertical, in degrees: 90 brings its middle from -z to +x.
     #[arg(long, value_name = "D", default_value_t = 0.0, requires = "environment", value_parser = number::turn_degrees, allow_hyphen_values = true)]
     pub environment_turn_degrees: f32,
 }
@@ -154,8 +154,8 @@ impl ViewArguments {
                 "the camera stands on its target",
                 "give --camera and --target different points, in metres",
             )),
-            // Closer to the vertical than this, right and up are lost in rounding.
-            Some(direction) if direction.y.abs() > 0.9999 => Err(Failure::new(
+            // Closer to the vertical than this, the renderer takes another direction for up.
+            Some(direction) if direction.y.abs() > 0.999 => Err(Failure::new(
                 "the camera looks straight up or down, so its horizon is not defined",
                 "move --camera a little to the side",
             )),

@@ -66,16 +66,18 @@ pub fn flaws(scene: &Scene) -> Vec<Flaw> {
     flaws
 }
 
-/// Edges without a neighbour that runs the other way; vertices at one place are one.
+/// Edges without a neighbour that runs the other way; vertices at one place, up to rounding, are one.
 fn open_edges(mesh: &Mesh) -> usize {
+    let largest = mesh.positions.iter().flatten().fold(0.0_f32, |largest, value| largest.max(value.abs()));
+    let tolerance = (1e-6 * largest).max(f32::MIN_POSITIVE);
     let mut places = HashMap::new();
     let place_of: Vec<usize> = mesh
         .positions
         .iter()
         .map(|position| {
-            // The sum turns -0.0 into 0.0.
             let next = places.len();
-            *places.entry(position.map(|value| (value + 0.0).to_bits())).or_insert(next)
+            let cell = position.map(|value| (value / tolerance).round() as i64);
+            *places.entry(cell).or_insert(next)
         })
         .collect();
     let mut balance: HashMap<(usize, usize), i32> = HashMap::new();

@@ -1,7 +1,6 @@
 //! Lights as Mitsuba 3 has them.
 
 use super::MILLIMETRES_PER_METRE;
-use crate::scene::environment::Environment;
 use crate::scene::light::{DirectionalLight, Light, PointLight};
 use glam::Vec3;
 use std::f64::consts::PI;
@@ -55,15 +54,14 @@ pub(super) fn light(text: &mut String, light: &Light) {
 }
 
 /// Adds light from all around, from an image beside the scene.
-pub(super) fn environment(text: &mut String, file: &str, environment: &Environment) {
+pub(super) fn environment(text: &mut String, file: &str, turn_radians: f32) {
     // Mitsuba has the image's left edge where we have its middle.
-    let degrees = 180.0 - environment.turn_radians.to_degrees();
+    let degrees = 180.0 - turn_radians.to_degrees();
     let _ = write!(
         text,
         "    <emitter type=\"envmap\">\n        <string name=\"filename\" value=\"{file}\"/>\n        \
-         <float name=\"scale\" value=\"{}\"/>\n        <transform name=\"to_world\">\n            \
-         <rotate y=\"1\" angle=\"{degrees}\"/>\n        </transform>\n    </emitter>\n",
-        environment.intensity
+         <transform name=\"to_world\">\n            \
+         <rotate y=\"1\" angle=\"{degrees}\"/>\n        </transform>\n    </emitter>\n"
     );
 }
 

@@ -1,7 +1,7 @@
 //! A material as a path tracer knows it.
 
-use subsurface_codegen::{DiffuseLobe, Material};
-use subsurface_profile::single_scattering_albedo::{self, Entry};
+use subsurface_codegen::Material;
+use subsurface_profile::single_scattering_albedo;
 
 /// What lies between the medium and the air.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,9 +20,7 @@ pub enum Boundary {
 impl Boundary {
     /// The boundary with the material's specular lobe.
     pub fn of(material: &Material) -> Self {
-        // F₀ = ((η - 1)/(η + 1))², of a mirror without end below 1.
-        let root = material.reflectance_at_normal.sqrt().min(0.9);
-        let refractive_index = material.refractive_index.unwrap_or((1.0 + root) / (1.0 - root));
+        let refractive_index = material.boundary_index();
         if refractive_index <= 1.0 {
             return Self::Matched;
         }
@@ -43,10 +41,7 @@ impl Medium {
     /// The medium whose half-space has a surface albedo of `surface_albedo` below this boundary, under the light that the
     /// material's profile is for.
     pub fn of(material: &Material, surface_albedo: [f64; 3], boundary: Boundary) -> Self {
-        let entry = match material.diffuse {
-            DiffuseLobe::Chandrasekhar(entry) => entry,
-            _ => material.profile.model.entry().unwrap_or(Entry::Searchlight),
-        };
+        let entry = material.entry();
         let refractive_index = match boundary {
             Boundary::Matched => 1.0,
             Boundary::Rough { refractive_index, .. } => refractive_index,

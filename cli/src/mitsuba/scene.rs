@@ -3,7 +3,6 @@
 use super::emitter;
 use super::{Boundary, MILLIMETRES_PER_METRE, Medium};
 use crate::scene::camera::{Camera, Size};
-use crate::scene::environment::Environment;
 use crate::scene::light::Light;
 use glam::Vec3;
 use std::fmt::Write as _;
@@ -24,14 +23,15 @@ pub struct Exported {
     pub medium: Option<(Medium, Boundary)>,
 }
 
-/// The scene of a channel (0 to 2) as XML for Mitsuba 3; lengths in mm. The environment comes with the name of its image.
+/// The scene of a channel (0 to 2) as XML for Mitsuba 3; lengths in mm. The
+/// environment is the name of its image, which holds the ambient light too, and its turn in radians.
 pub fn xml(
     channel: usize,
     objects: &[Exported],
     camera: &Camera,
     lights: &[Light],
     ambient_intensity: f32,
-    environment: Option<(&str, &Environment)>,
+    environment: Option<(String, f32)>,
     size: Size,
 ) -> String {
     let mut text = format!(
@@ -49,10 +49,9 @@ pub fn xml(
     for light in lights {
         emitter::light(&mut text, light);
     }
-    if let Some((file, environment)) = environment {
-        emitter::environment(&mut text, file, environment);
-    }
-    if ambient_intensity > 0.0 {
+    if let Some((file, turn_radians)) = &environment {
+        emitter::environment(&mut text, file, *turn_radians);
+    } else if ambient_intensity > 0.0 {
         // Irradiance π I from everywhere alike is radiance I.
         let _ = write!(
             text,

@@ -71,9 +71,8 @@ pub fn read_picture(path: &Path, channels: &Channels) -> Result<LinearPicture, P
     let wrong = pixels.iter().position(|pixel| !pixel.iter().all(|value| value.is_finite()));
     if let Some(pixel) = wrong {
         let width = size.width as usize;
-        return Err(PictureError::BadValue {
+        return Err(PictureError::BadPixel {
             file: path.to_owned(),
-            channel: "R, G, B".into(),
             what: format!("{:?}", pixels[pixel]),
             x: pixel % width,
             y: pixel / width,

@@ -1,7 +1,7 @@
 //! What a picture is drawn with.
 
 use subsurface_codegen::Estimator;
-use subsurface_profile::ModelKind;
+use subsurface_profile::{Length, ModelKind, PublishedSet};
 
 /// A material that has all but some fields of the truth's, and a kernel.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,10 +31,12 @@ impl Variant {
         Self { scatters: false, ..Self::new("no subsurface", "") }
     }
 
-    /// Each published profile of an index-matched medium.
+    /// Each published profile of an index-matched medium that is scaled by the mean free path.
     pub fn models() -> Vec<Self> {
         let sets = ModelKind::ALL.iter().flat_map(|kind| kind.published());
-        let matched = sets.filter(|set| set.entry.is_some());
+        // The truths' materials give the mean free path.
+        let is_alike = |set: &PublishedSet| set.entry.is_some() && set.model.length() == Length::MeanFreePath;
+        let matched = sets.filter(is_alike);
         matched.map(|set| Self::new(set.stem, &format!("profile: \"{}\"", set.stem))).collect()
     }
 

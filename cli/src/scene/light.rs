@@ -8,6 +8,9 @@ use std::str::FromStr;
 /// intensity 1.
 pub const DEFAULT_AMBIENT_INTENSITY: f32 = 0.025;
 
+/// Largest intensity: beyond, light does not fit into half floats at any exposure.
+const BRIGHTEST: f32 = 1e6;
+
 /// A light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Light {
@@ -158,7 +161,15 @@ fn unit(direction: [f32; 3]) -> Result<[f32; 3], String> {
 }
 
 fn bright(intensity: f32) -> Result<f32, String> {
-    if intensity < 0.0 { Err(format!("the intensity {intensity} is negative")) } else { Ok(intensity) }
+    if intensity < 0.0 {
+        return Err(format!("the intensity {intensity} is negative"));
+    }
+    if intensity > BRIGHTEST {
+        return Err(format!(
+            "the intensity {intensity} is more than {BRIGHTEST}; 1 lights white up to white"
+        ));
+    }
+    Ok(intensity)
 }
 
 fn thick(radius_mm: f32) -> Result<f32, String> {
@@ -176,9 +187,18 @@ mod tests {
         assert_eq!(Light::Directional(light), Light::distant([0.0, -1.0, 0.0], 1.0));
         let sun: DirectionalLight = "0,0,5,0.5,0.53".parse().unwrap();
         assert_eq!((sun.intensity, sun.angular_diameter_degrees), (0.5, 0.53));
-        for wrong in
-            ["", "1,2", "0,0,0", "1,0,0,-1", "1,0,x", "inf,0,0", "NaN,0,0", "1,2,3,4,-5", "1,2,3,4,5,6"]
-        {
+        for wrong in [
+            "",
+            "1,2",
+            "0,0,0",
+            "1,0,0,-1",
+            "1,0,x",
+            "inf,0,0",
+            "NaN,0,0",
+            "1,2,3,4,-5",
+            "1,2,3,4,5,6",
+            "1,2,3,1e30",
+        ] {
             assert!(wrong.parse::<DirectionalLight>().is_err(), "{wrong}");
         }
     }

@@ -5,6 +5,7 @@ pub mod camera;
 pub mod environment;
 pub mod gltf;
 pub mod light;
+pub mod light_warning;
 pub mod shapes;
 pub mod texture_orientation;
 mod texture_seam;

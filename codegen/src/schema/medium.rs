@@ -71,6 +71,21 @@ impl MediumGiven {
     }
 }
 
+/// That a medium without absorption has no diffuse mean free path, which its profile takes.
+pub(crate) fn clear_medium(
+    length: &LengthGiven,
+    surface_albedo: Option<&OrMedium<Triple>>,
+    channel: usize,
+) -> Diagnostic {
+    let place = match surface_albedo {
+        Some(OrMedium::Medium(medium)) => &medium.absorption.spans[channel],
+        _ => &length.key,
+    };
+    Diagnostic::error("a medium that absorbs nothing has no diffuse mean free path")
+        .label(place.clone(), "no absorption")
+        .help("give an absorption above 0, or a profile that takes the mean free path, such as `\"burley_searchlight\"`")
+}
+
 /// F₀ = ((η - 1)/(η + 1))² of a boundary.
 pub(crate) fn reflectance_at_normal(refractive_index: f64) -> f64 {
     ((refractive_index - 1.0) / (refractive_index + 1.0)).powi(2)
@@ -103,7 +118,7 @@ pub(super) fn decode_medium(decoder: &mut Decoder, key: &Span, node: &Node<'_>) 
         (
             absorption.is_absent(),
             "absorption_per_mm",
-            "add `absorption_per_mm: (red, green, blue)`, σa per mm",
+            "add `absorption_per_mm: (red, green, blue)`, σa per mm; a `medium` replaces that of a base as a whole",
         ),
         (
             refractive_index.is_absent(),
@@ -141,6 +156,13 @@ pub(super) fn decode_medium(decoder: &mut Decoder, key: &Span, node: &Node<'_>) 
     }
     let given =
         MediumGiven { key: key.clone(), reduced_scattering: scattering, absorption, refractive_index: index };
+    if let Some(channel) = given.reduced_scattering.values.iter().position(|value| *value == 0.0) {
+        decoder.report(
+            Diagnostic::warning("a medium that does not scatter sends nothing back")
+                .label(given.reduced_scattering.spans[channel].clone(), "no reduced scattering")
+                .help("its surface albedo is 0, and what is thin lets light through like coloured glass"),
+        );
+    }
     let empty = (0..3).find(|&channel| !(1.0 / given.attenuation(channel)).is_finite());
     if let Some(channel) = empty {
         decoder.report(

@@ -18,7 +18,7 @@ mod set_file;
 pub(crate) use decoder::{Decoder, Given, Tables, Triple};
 pub(crate) use diffuse::{DiffuseGiven, no_entry, other_coupling};
 pub(crate) use material::{LengthGiven, MaterialFile, SCHEMA_VERSION, decode_material};
-pub(crate) use medium::{OrMedium, reflectance_at_normal};
+pub(crate) use medium::{OrMedium, clear_medium, reflectance_at_normal};
 pub(crate) use model::length_word;
 pub(crate) use profile::{ProfileExpression, ProfileFile, decode_profile_file};
 pub(crate) use set_file::{SET, SetFile, decode_set_file};

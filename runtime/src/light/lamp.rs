@@ -5,7 +5,7 @@ use glam::Vec3;
 use super::unit;
 use crate::camera::Bounds;
 
-/// Least difference of the cosines at which a cone begins and ends to fall off: a sharp edge would not be smooth.
+/// Least part of a cone in which it falls off, by cosines: an edge without one would not be smooth.
 const LEAST_FALLOFF: f32 = 1e-3;
 
 /// A lamp that shines alike into all directions.
@@ -71,7 +71,7 @@ impl SpotLight {
             return [0.0, 0.0];
         }
         let (outer, inner) = (outer.cos(), self.inner_angle_radians.clamp(0.0, outer).cos());
-        let scale = 1.0 / (inner - outer).max(LEAST_FALLOFF);
+        let scale = 1.0 / (inner - outer).max(LEAST_FALLOFF * (1.0 - outer));
         [scale, -outer * scale]
     }
 
@@ -110,6 +110,7 @@ mod tests {
             [1.0, 1.0, 0.0, 0.0]
         );
         assert!((0.01..0.99).contains(&share(&lamp, 30.0)));
+        assert!((1..10).all(|degrees| share(&cone(0.9 * degrees as f32, degrees as f32), 0.0) == 1.0));
         // No cone lights nothing, and an inner angle beyond the outer one is that.
         assert_eq!(share(&cone(0.0, 0.0), 0.0), 0.0);
         assert_eq!(share(&cone(60.0, 30.0), 29.0), 1.0);

@@ -4,7 +4,7 @@ use super::step::{Outcome, Step};
 use crate::shell::{Failure, cargo, run};
 use crate::tool::{self, Found};
 use crate::toolchain;
-use crate::{accuracy, shader_cost, tables, test};
+use crate::{page, shader_cost, tables, test};
 
 /// What every change passes before it is merged.
 pub(crate) const ALL: [Step; 14] = [
@@ -136,7 +136,7 @@ fn unit_tests() -> Result<Outcome, Failure> {
 }
 
 fn accuracy_is_current() -> Result<Outcome, Failure> {
-    accuracy::run_command(&["--check".to_owned()])?;
+    page::ACCURACY.run_command(&["--check".to_owned()])?;
     Ok(Outcome::Passed)
 }
 
