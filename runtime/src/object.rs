@@ -67,6 +67,16 @@ pub struct SurfaceDescriptor<'a> {
     pub normals: Option<TexturePixels<'a>>,
     /// Scale of the normals' x and y; by default 1.
     pub normal_scale: f32,
+    /// Roughness in the green channel (linear, as glTF's metallic-roughness texture has it), in place of the material's; by
+    /// default none.
+    pub roughness: Option<TexturePixels<'a>>,
+    /// Factor on that texture, 0 to 1; by default 1.
+    pub roughness_factor: f32,
+    /// Strength of the specular reflection in the alpha channel (linear, as in glTF's `KHR_materials_specular`): a factor on
+    /// the reflectance at normal incidence; by default none.
+    pub specular_strength: Option<TexturePixels<'a>>,
+    /// Factor on that strength, with a texture or without; by default 1.
+    pub specular_strength_factor: f32,
     /// Specular reflectance at normal incidence where there is no material, 0 to 1; by default 0.04, a dielectric of
     /// refractive index 1.5.
     pub opaque_reflectance_at_normal: f32,
@@ -84,6 +94,10 @@ impl Default for SurfaceDescriptor<'_> {
             surface_albedo_factor: [1.0; 3],
             normals: None,
             normal_scale: 1.0,
+            roughness: None,
+            roughness_factor: 1.0,
+            specular_strength: None,
+            specular_strength_factor: 1.0,
             opaque_reflectance_at_normal: 0.04,
             opaque_roughness: 0.6,
             world_from_object: Mat4::IDENTITY.to_cols_array_2d(),
@@ -113,6 +127,7 @@ pub struct Object {
     pub(crate) shadow_group: wgpu::BindGroup,
     uniform: wgpu::Buffer,
     material: Option<u32>,
+    has_specular_textures: bool,
 }
 
 impl Object {
@@ -132,6 +147,10 @@ impl Object {
         let colour = colour.upload(device, queue, Encoding::Srgb, "Object surface albedo")?;
         let normals = surface.normals.unwrap_or(flat);
         let normals = normals.upload(device, queue, Encoding::Linear, "Object normals")?;
+        let roughness = surface.roughness.unwrap_or(white);
+        let roughness = roughness.upload(device, queue, Encoding::Linear, "Object roughness")?;
+        let strength = surface.specular_strength.unwrap_or(white);
+        let strength = strength.upload(device, queue, Encoding::Linear, "Object specular strength")?;
         let sampler = device.create_sampler(&wgpu::SamplerDescriptor {
             label: Some("Object sampler"),
             address_mode_u: wgpu::AddressMode::Repeat,
@@ -150,6 +169,13 @@ impl Object {
             surface_albedo_override: if overrides { 1.0 } else { 0.0 },
             opaque_reflectance_at_normal: surface.opaque_reflectance_at_normal,
             opaque_roughness: surface.opaque_roughness,
+            roughness_factor: if surface.roughness.is_some() {
+                surface.roughness_factor.max(0.0)
+            } else {
+                -1.0
+            },
+            specular_strength_factor: surface.specular_strength_factor.max(0.0),
+            padding_152: [0; 8],
         };
         let uniform = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
             label: Some("Object uniform"),
@@ -162,6 +188,8 @@ impl Object {
             surface_albedo_texture: &colour.view,
             normal_texture: &normals.view,
             surface_sampler: &sampler,
+            roughness_texture: &roughness.view,
+            specular_strength_texture: &strength.view,
         }
         .create(
             device,
@@ -180,7 +208,16 @@ impl Object {
             &shadow::BindGroup1::layout(device, "Object shadow layout"),
             "Object shadow bind group",
         );
-        Ok(Self { geometry, surface_group, shadow_group, uniform, material: surface.material })
+        let has_specular_textures = surface.roughness.is_some()
+            || surface.specular_strength.is_some()
+            || surface.specular_strength_factor != 1.0;
+        let material = surface.material;
+        Ok(Self { geometry, surface_group, shadow_group, uniform, material, has_specular_textures })
+    }
+
+    /// Whether its shading reads more textures than that of most.
+    pub(crate) fn has_specular_textures(&self) -> bool {
+        self.has_specular_textures
     }
 
     /// Places the object: world space from the space of its vertices (columns). Uploads that alone; frames that are

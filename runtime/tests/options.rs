@@ -52,12 +52,10 @@ const OPTIONS: [&[&str]; 8] = [
 /// Materials in which each two choices of different options meet: greedily, the one with the most new pairs next.
 fn materials() -> Vec<[usize; OPTIONS.len()]> {
     let mut pairs = Vec::new();
-    for first in 0..OPTIONS.len() {
-        for second in first + 1..OPTIONS.len() {
-            for a in 0..OPTIONS[first].len() {
-                for b in 0..OPTIONS[second].len() {
-                    pairs.push([(first, a), (second, b)]);
-                }
+    for (first, of_first) in OPTIONS.iter().enumerate() {
+        for (second, of_second) in OPTIONS.iter().enumerate().skip(first + 1) {
+            for a in 0..of_first.len() {
+                pairs.extend((0..of_second.len()).map(|b| [(first, a), (second, b)]));
             }
         }
     }

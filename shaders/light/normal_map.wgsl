@@ -1,3 +1,16 @@
+/// Rounding of the length of a normal that is stored in eight bits, and a little more: shorter ones are means.
+const NORMAL_ROUNDING: f32 = 0.01;
+
+/// Roughness of a surface whose normal map, seen from afar, is a mean of normals: its length has shrunk by their
+/// spread, which widens the lobe (Toksvig 2005, "Mipmapping Normal Maps"). With slopes' variance σ² per axis the length
+/// of a mean is about 1 − σ², and α² of a lobe is twice the variance of its slopes: α′² = α² + 2 (1 − |n|).
+fn roughness_of_normals(roughness: f32, texel: vec3f, scale: f32) -> f32 {
+    let lost = max(1.0 - length(2.0 * texel - 1.0) - NORMAL_ROUNDING, 0.0);
+    let alpha = roughness * roughness;
+    let widened = sqrt(min(sqrt(alpha * alpha + 2.0 * lost * scale * scale), 1.0));
+    return select(roughness, widened, lost > 0.0 && scale > 0.0);
+}
+
 /// Normal of the normal map in world space, with the tangent frame from screen-space derivatives
 /// (Schüler 2006, "Normal Mapping without Precomputed Tangents", ShaderX5).
 ///

@@ -32,6 +32,10 @@ struct GBufferObject {
     opaque_reflectance_at_normal: f32,
     /// Roughness of an opaque object.
     opaque_roughness: f32,
+    /// Factor on the roughness texture; below 0 without one.
+    roughness_factor: f32,
+    /// Factor on the specular strength texture.
+    specular_strength_factor: f32,
 }
 
 /// Surface albedo below which light that came through leaves in part where it arrives.
@@ -39,6 +43,9 @@ const LEAST_DIFFUSING_ALBEDO: f32 = 0.02;
 
 /// Whether there is light from all around; the pipeline says it.
 override HAS_ENVIRONMENT: bool = false;
+
+/// Whether the object has a texture of its roughness or of its specular strength; the pipeline says it.
+override HAS_SPECULAR_TEXTURES: bool = false;
 
 @group(2) @binding(0) var<uniform> frame: GBufferFrame;
 @group(2) @binding(1) var shadow_maps: texture_depth_2d_array;
@@ -52,6 +59,10 @@ override HAS_ENVIRONMENT: bool = false;
 @group(3) @binding(1) var surface_albedo_texture: texture_2d<f32>;
 @group(3) @binding(2) var normal_texture: texture_2d<f32>;
 @group(3) @binding(3) var surface_sampler: sampler;
+/// Green.
+@group(3) @binding(4) var roughness_texture: texture_2d<f32>;
+/// Alpha.
+@group(3) @binding(5) var specular_strength_texture: texture_2d<f32>;
 
 /// One vertex of a mesh, in the object's space.
 struct GBufferVertex {
@@ -113,8 +124,16 @@ fn gbuffer_fragment(interpolated: GBufferInterpolated, @builtin(front_facing) fr
     let textured = texel.rgb * object.surface_albedo_factor;
     let override_albedo = select(1.0, object.surface_albedo_override, translucent);
     let surface_albedo = clamp(mix(row.surface.surface_albedo, textured, override_albedo), vec3f(0.0), vec3f(1.0));
-    let reflectance = select(object.opaque_reflectance_at_normal, row.surface.reflectance_at_normal, translucent);
-    let roughness = select(object.opaque_roughness, row.surface.roughness, translucent);
+    var reflectance = select(object.opaque_reflectance_at_normal, row.surface.reflectance_at_normal, translucent);
+    var roughness = select(object.opaque_roughness, row.surface.roughness, translucent);
+    if HAS_SPECULAR_TEXTURES {
+        let place = interpolated.texture_coordinate;
+        let rough = textureSample(roughness_texture, surface_sampler, place).g * object.roughness_factor;
+        roughness = select(roughness, clamp(rough, 0.0, 1.0), object.roughness_factor >= 0.0);
+        let strength = textureSample(specular_strength_texture, surface_sampler, place).a;
+        reflectance = min(reflectance * strength * object.specular_strength_factor, 1.0);
+    }
+    roughness = roughness_of_normals(roughness, normal_texel.xyz, object.normal_scale);
     let profiles = material_profiles(row, surface_albedo);
     let transmission = frame.transmission * select(0.0, row.surface.transmission_strength, translucent);
     let is_thin = THIN_SHEETS && translucent && row.surface.thin_thickness_mm > 0.0;

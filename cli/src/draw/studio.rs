@@ -327,6 +327,10 @@ fn objects(device: &Device, frame: &Frame<'_>) -> Result<Vec<Object>, Failure> {
             surface_albedo_factor: [red, green, blue],
             normals: surface.normal_map.as_ref().map(pixels),
             normal_scale: surface.normal_scale,
+            roughness: surface.roughness.as_ref().map(pixels),
+            roughness_factor: surface.roughness_factor,
+            specular_strength: surface.specular_strength.as_ref().map(pixels),
+            specular_strength_factor: surface.specular_strength_factor,
             ..Default::default()
         };
         let made = Object::new(&device.device, &device.queue, geometry, &descriptor);

@@ -125,6 +125,14 @@ pub struct Surface {
     pub normal_map: Option<Image>,
     /// Factor on the normal map's x and y.
     pub normal_scale: f32,
+    /// Roughness in the green channel, linear.
+    pub roughness: Option<Image>,
+    /// Factor on it.
+    pub roughness_factor: f32,
+    /// Strength of the specular reflection in the alpha channel, linear.
+    pub specular_strength: Option<Image>,
+    /// Factor on it, with an image or without.
+    pub specular_strength_factor: f32,
     /// Name of the material in the file.
     pub material_name: Option<String>,
     /// Sends nothing back and lets nothing through: it only casts shadows.
@@ -138,6 +146,10 @@ impl Default for Surface {
             base_colour: None,
             normal_map: None,
             normal_scale: 1.0,
+            roughness: None,
+            roughness_factor: 1.0,
+            specular_strength: None,
+            specular_strength_factor: 1.0,
             material_name: None,
             is_black: false,
         }

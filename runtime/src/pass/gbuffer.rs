@@ -102,7 +102,7 @@ pub struct GBufferPass {
     pipeline_cache: Option<wgpu::PipelineCache>,
     timestamps: Option<Timestamps>,
     kernel: LoadedKernel,
-    pipeline: wgpu::RenderPipeline,
+    pipelines: Pipelines,
     uniform: wgpu::Buffer,
     comparison: wgpu::Sampler,
     layout: wgpu::BindGroupLayout,
@@ -157,7 +157,7 @@ impl GBufferPass {
         descriptor: &GBufferDescriptor<'_>,
     ) -> Result<Self, PassError> {
         let label = Label::new(descriptor.label, NAME);
-        let pipeline = pipeline(device, kernel, &label, descriptor.pipeline_cache, false)?;
+        let pipelines = Pipelines::new(device, kernel, &label, descriptor.pipeline_cache, false)?;
         let layout = GbufferBindGroup2::layout(device, &label.of("frame layout"));
         let uniform = uniform_buffer::<GBufferFrame>(device, &label.of("frame"));
         let comparison = device.create_sampler(&wgpu::SamplerDescriptor {
@@ -174,7 +174,7 @@ impl GBufferPass {
             pipeline_cache: descriptor.pipeline_cache.cloned(),
             timestamps: descriptor.timestamps.clone(),
             kernel: kernel.clone(),
-            pipeline,
+            pipelines,
             uniform,
             comparison,
             layout,
@@ -195,7 +195,7 @@ impl GBufferPass {
     /// As of [`new`](Self::new); the old kernel stays.
     pub fn set_kernel(&mut self, device: &wgpu::Device, kernel: &LoadedKernel) -> Result<(), PassError> {
         let cache = self.pipeline_cache.as_ref();
-        self.pipeline = pipeline(device, kernel, &self.label, cache, self.environment.is_some())?;
+        self.pipelines = Pipelines::new(device, kernel, &self.label, cache, self.environment.is_some())?;
         self.kernel = kernel.clone();
         Ok(())
     }
@@ -216,14 +216,15 @@ impl GBufferPass {
     ///
     /// [`GBufferView`] says how bright it is and how it is turned.
     ///
-    /// Makes another pipeline where there was none before, or is none after.
+    /// Makes other pipelines where there was none before, or is none after.
     ///
     /// # Errors
     /// As of [`new`](Self::new).
     pub fn set_environment(&mut self, environment: Option<Environment>) -> Result<(), PassError> {
         if environment.is_some() != self.environment.is_some() {
             let cache = self.pipeline_cache.as_ref();
-            self.pipeline = pipeline(&self.device, &self.kernel, &self.label, cache, environment.is_some())?;
+            self.pipelines =
+                Pipelines::new(&self.device, &self.kernel, &self.label, cache, environment.is_some())?;
         }
         self.environment = environment;
         if let Some(bound) = self.bound.take() {
@@ -333,15 +334,44 @@ impl GBufferPass {
             timestamp_writes: timestamps.and_then(|timestamps| timestamps.of_render_pass(true, true)),
             ..Default::default()
         });
-        pass.set_pipeline(&self.pipeline);
         pass.set_bind_group(0, self.kernel.bind_group(), &[]);
         pass.set_bind_group(GbufferBindGroup2::INDEX, &bound.bind_group, &[]);
+        let mut current = None;
         for object in objects {
+            let has_textures = object.has_specular_textures();
+            if current != Some(has_textures) {
+                pass.set_pipeline(self.pipelines.of(has_textures));
+                current = Some(has_textures);
+            }
             pass.set_stencil_reference(if object.is_translucent() { TRANSLUCENT_STENCIL } else { 0 });
             pass.set_bind_group(BindGroup3::INDEX, &object.surface_group, &[]);
             object.geometry.draw(&mut pass);
         }
         Ok(())
+    }
+}
+
+/// The pass for objects without and with textures of their specular reflection: what most have not costs them nothing.
+#[derive(Debug)]
+struct Pipelines {
+    plain: wgpu::RenderPipeline,
+    textured: wgpu::RenderPipeline,
+}
+
+impl Pipelines {
+    fn new(
+        device: &wgpu::Device,
+        kernel: &LoadedKernel,
+        label: &Label,
+        cache: Option<&wgpu::PipelineCache>,
+        has_environment: bool,
+    ) -> Result<Self, PassError> {
+        let of = |has_textures| pipeline(device, kernel, label, cache, has_environment, has_textures);
+        Ok(Self { plain: of(false)?, textured: of(true)? })
+    }
+
+    fn of(&self, has_textures: bool) -> &wgpu::RenderPipeline {
+        if has_textures { &self.textured } else { &self.plain }
     }
 }
 
@@ -351,6 +381,7 @@ fn pipeline(
     label: &Label,
     cache: Option<&wgpu::PipelineCache>,
     has_environment: bool,
+    has_specular_textures: bool,
 ) -> Result<wgpu::RenderPipeline, PassError> {
     if !kernel.module().has_gbuffer() {
         return Err(PassError::NoGBuffer);
@@ -404,7 +435,10 @@ fn pipeline(
             module,
             entry_point: Some(ENTRY_GBUFFER_FRAGMENT),
             compilation_options: wgpu::PipelineCompilationOptions {
-                constants: &[("HAS_ENVIRONMENT", f64::from(u8::from(has_environment)))],
+                constants: &[
+                    ("HAS_ENVIRONMENT", f64::from(u8::from(has_environment))),
+                    ("HAS_SPECULAR_TEXTURES", f64::from(u8::from(has_specular_textures))),
+                ],
                 ..Default::default()
             },
             targets: &[colour(), colour(), colour()],

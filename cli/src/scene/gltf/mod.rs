@@ -115,11 +115,25 @@ impl Loader<'_> {
             Some(info) => Some(self.image(&info.texture(), info.tex_coord(), place)?),
             None => None,
         };
+        // A factor alone is what every exporter writes; the material's own roughness is better founded.
+        let roughness = match colour.metallic_roughness_texture() {
+            Some(info) => Some(self.image(&info.texture(), info.tex_coord(), place)?),
+            None => None,
+        };
+        let specular = material.specular();
+        let specular_strength = match specular.as_ref().and_then(gltf::material::Specular::specular_texture) {
+            Some(info) => Some(self.image(&info.texture(), info.tex_coord(), place)?),
+            None => None,
+        };
         Ok(Surface {
             base_colour_factor: colour.base_color_factor(),
             base_colour,
             normal_map,
             normal_scale: normal.map_or(1.0, |info| info.scale()),
+            roughness,
+            roughness_factor: colour.roughness_factor(),
+            specular_strength,
+            specular_strength_factor: specular.map_or(1.0, |specular| specular.specular_factor()),
             material_name: material.name().map(str::to_owned),
             is_black: false,
         })
