@@ -6,6 +6,7 @@ mod gpu;
 
 use std::f64::consts::PI;
 
+use gpu::ball::ball;
 use gpu::{Gpu, compile};
 use subsurface_runtime::{
     Bounds, Camera, CompositeSettings, DirectionalLight, Environment, EnvironmentError, Extent, Frame,
@@ -31,24 +32,6 @@ fn plate(middle: [f32; 3], u: [f32; 3], v: [f32; 3]) -> Mesh {
         texture_coordinate: [0.0; 2],
     };
     (vec![corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)], vec![0, 1, 2, 0, 2, 3])
-}
-
-/// A sphere of many triangles.
-fn sphere(middle: [f32; 3], radius: f32) -> Mesh {
-    const RINGS: u32 = 48;
-    let vertices = (0..=RINGS).flat_map(|ring| {
-        (0..=2 * RINGS).map(move |sector| {
-            let theta = ring as f32 / RINGS as f32 * std::f32::consts::PI;
-            let phi = sector as f32 / RINGS as f32 * std::f32::consts::PI;
-            let normal = [theta.sin() * phi.sin(), theta.cos(), theta.sin() * phi.cos()];
-            let position = [0, 1, 2].map(|axis: usize| middle[axis] + radius * normal[axis]);
-            Vertex { position, normal, texture_coordinate: [0.0; 2] }
-        })
-    });
-    let row = 2 * RINGS + 1;
-    let quads = (0..RINGS).flat_map(|ring| (0..2 * RINGS).map(move |sector| ring * row + sector));
-    let indices = quads.flat_map(|a| [a, a + row, a + 1, a + 1, a + row, a + row + 1]);
-    (vertices.collect(), indices.collect())
 }
 
 struct Scene<'a> {
@@ -238,7 +221,7 @@ fn the_order_of_lights_changes_no_pixel_and_neither_does_one_of_no_intensity() {
     let gpu = Gpu::open();
     let skin = "Material(profile: \"two_exponential_dipole_searchlight\", mean_free_path_mm: (1.3, 0.95, 0.67), \
                 surface_albedo: (0.83, 0.64, 0.55))";
-    let meshes = [sphere([0.0; 3], 0.06), sphere([0.07, 0.05, 0.06], 0.012)];
+    let meshes = [ball([0.0; 3], 0.06, 48), ball([0.07, 0.05, 0.06], 0.012, 48)];
     let picture = |lights: &[Light]| {
         let mut scene = Scene::new(&gpu, skin, &meshes);
         scene.picture(&Frame { lights, ..Frame::new(portrait(), Bounds::new([0.0; 3], 0.12), 1000.0) })
@@ -270,7 +253,7 @@ fn lamps_in_odd_places_light_without_a_pixel_that_is_no_number() {
     let gpu = Gpu::open();
     let skin = "Material(profile: \"two_exponential_dipole_searchlight\", mean_free_path_mm: (1.3, 0.95, 0.67), \
                 surface_albedo: (0.83, 0.64, 0.55))";
-    let mut scene = Scene::new(&gpu, skin, &[sphere([0.0; 3], 0.06)]);
+    let mut scene = Scene::new(&gpu, skin, &[ball([0.0; 3], 0.06, 48)]);
     let lamp = |position: [f32; 3]| Light::from(PointLight { position, intensity: [1.0; 3], radius_mm: 0.0 });
     let cone = |outer: f32| {
         Light::from(SpotLight { position: [0.0, 0.3, 0.0], outer_angle_radians: outer, ..Default::default() })
@@ -297,14 +280,14 @@ fn lamps_in_odd_places_light_without_a_pixel_that_is_no_number() {
 fn a_ground_of_a_kilometre_cuts_off_nothing_that_is_near() {
     let gpu = Gpu::open();
     let ground = plate([0.0, -0.1, 0.0], [0.0, 0.0, 1000.0], [1000.0, 0.0, 0.0]);
-    let mut scene = Scene::new(&gpu, CHALK, &[sphere([0.0; 3], 0.06), ground]);
+    let mut scene = Scene::new(&gpu, CHALK, &[ball([0.0; 3], 0.06, 48), ground]);
     let frame = |radius| Frame {
         ambient_irradiance: [PI as f32; 3],
         ..Frame::new(portrait(), Bounds::new([0.0; 3], radius), 1000.0)
     };
     let middle = at(&scene.picture(&frame(1500.0)), SIZE.width / 2, SIZE.height / 2);
     assert_eq!(middle[3], 1.0);
-    let mut alone = Scene::new(&gpu, CHALK, &[sphere([0.0; 3], 0.06)]);
+    let mut alone = Scene::new(&gpu, CHALK, &[ball([0.0; 3], 0.06, 48)]);
     assert_eq!(at(&alone.picture(&frame(0.06)), SIZE.width / 2, SIZE.height / 2), middle);
 }
 
@@ -330,7 +313,7 @@ fn an_environment_that_is_the_same_everywhere_is_ambient_light() {
         "Material(profile: \"two_exponential_dipole_searchlight\", mean_free_path_mm: (1.0, 1.0, 1.0), \
          surface_albedo: (0.8, 0.5, 0.3), thin: (thickness_mm: 0.5))",
     ] {
-        let mut scene = Scene::new(&gpu, material, &[sphere([0.0; 3], 0.06)]);
+        let mut scene = Scene::new(&gpu, material, &[ball([0.0; 3], 0.06, 48)]);
         let frame = Frame::new(portrait(), Bounds::new([0.0; 3], 0.06), 1000.0);
         let ambient = scene.picture(&Frame { ambient_irradiance: [0.5 * PI as f32; 3], ..frame });
         scene.renderer.set_environment(Some(environment(&gpu, |_| [0.25; 3]))).expect("it has a G-buffer");
@@ -349,7 +332,7 @@ fn an_environment_lights_what_faces_it_and_turns() {
     let gpu = Gpu::open();
     // A soft light from the right.
     let from_the_right = |[x, _, _]: [f32; 3]| [x.max(0.0).powi(2); 3];
-    let mut scene = Scene::new(&gpu, CHALK, &[sphere([0.0; 3], 0.06)]);
+    let mut scene = Scene::new(&gpu, CHALK, &[ball([0.0; 3], 0.06, 48)]);
     scene.renderer.set_environment(Some(environment(&gpu, from_the_right))).expect("it has a G-buffer");
     let camera = Camera { position: [0.0, 0.0, 0.5], target: [0.0; 3], fov_y_radians: 0.3 };
     let mut sides = |degrees: f32| {

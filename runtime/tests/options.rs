@@ -2,10 +2,11 @@
 
 mod gpu;
 
+use gpu::ball::ball;
 use gpu::{Gpu, compile};
 use subsurface_runtime::{
     Bounds, Camera, CompositeSettings, DirectionalLight, Extent, Frame, Geometry, Light, Object, PointLight,
-    Renderer, RendererDescriptor, SurfaceDescriptor, Target, Vertex, wgpu,
+    Renderer, RendererDescriptor, SurfaceDescriptor, Target, wgpu,
 };
 
 const SIZE: Extent = Extent::new(48, 48);
@@ -93,24 +94,6 @@ fn text(row: &[usize; OPTIONS.len()]) -> String {
     format!("Material({}, specular: ({}))", others.join(", "), specular.join(", "))
 }
 
-/// A ball of few triangles.
-fn ball(middle: [f32; 3], radius: f32) -> (Vec<Vertex>, Vec<u32>) {
-    const RINGS: u32 = 12;
-    let vertices = (0..=RINGS).flat_map(|ring| {
-        (0..=2 * RINGS).map(move |sector| {
-            let theta = ring as f32 / RINGS as f32 * std::f32::consts::PI;
-            let phi = sector as f32 / RINGS as f32 * std::f32::consts::PI;
-            let normal = [theta.sin() * phi.sin(), theta.cos(), theta.sin() * phi.cos()];
-            let position = [0, 1, 2].map(|axis: usize| middle[axis] + radius * normal[axis]);
-            Vertex { position, normal, texture_coordinate: [0.0; 2] }
-        })
-    });
-    let row = 2 * RINGS + 1;
-    let quads = (0..RINGS).flat_map(|ring| (0..2 * RINGS).map(move |sector| ring * row + sector));
-    let indices = quads.flat_map(|a| [a, a + row, a + 1, a + 1, a + row, a + row + 1]);
-    (vertices.collect(), indices.collect())
-}
-
 #[test]
 fn every_pair_of_options_compiles_and_draws_light_that_is_a_number() {
     let gpu = Gpu::open();
@@ -139,7 +122,7 @@ fn every_pair_of_options_compiles_and_draws_light_that_is_a_number() {
         )
     };
     for (index, (name, text)) in files.iter().enumerate() {
-        let (vertices, indices) = ball([0.0; 3], 0.02);
+        let (vertices, indices) = ball([0.0; 3], 0.02, 12);
         let geometry = Geometry::new(&gpu.device, &vertices, &indices);
         let surface = SurfaceDescriptor { material: Some(index as u32), ..Default::default() };
         let object = Object::new(&gpu.device, &gpu.queue, geometry, &surface).expect("no textures");

@@ -2,6 +2,7 @@
 
 #![allow(dead_code, unreachable_pub, reason = "each test binary uses its own part of this module")]
 
+pub mod ball;
 mod evaluation;
 
 use subsurface_codegen::{Compilation, Compiler, OutputFormat};
