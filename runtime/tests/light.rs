@@ -11,7 +11,7 @@ use subsurface_profile::single_scattering_albedo::{Entry, to_surface_albedo};
 use subsurface_profile::{Channel, HalfSpace, Medium, Model, Slab};
 use subsurface_runtime::{
     Bounds, Camera, CompositeSettings, DirectionalLight, Extent, Frame, Geometry, Light, LoadedKernel,
-    Object, Renderer, RendererDescriptor, SurfaceDescriptor, Target, TexturePixels, Vertex, wgpu,
+    Object, PointLight, Renderer, RendererDescriptor, SurfaceDescriptor, Target, TexturePixels, Vertex, wgpu,
 };
 
 /// Odd: a pixel is in the very middle.
@@ -799,4 +799,18 @@ fn normals_that_differ_make_a_surface_rougher_from_afar() {
     let none = textured(&gpu, &material, SurfaceDescriptor::default())[1][0];
     // The code 128 is a slope of 0.004.
     assert!((flat / none - 1.0).abs() < 0.05, "a flat map changes the roughness: {flat}, {none}");
+}
+
+#[test]
+fn a_lamp_behind_a_slab_is_as_near_as_the_face_that_it_lights() {
+    let gpu = Gpu::open();
+    let mut scene = Scene::new(&gpu, &skin(""), &[block([0.05, 0.05, 2e-3])]);
+    // 18 mm from the face behind, 22 from the one in view.
+    let lamp = PointLight { position: [0.0, 0.0, -0.02], intensity: [1e-3; 3], radius_mm: 0.0 };
+    let [_, found, _] = scene.lit(&[lamp.into()], 0.0, Bounds::new([0.0; 3], 0.08));
+    for (channel, through) in slab_law(4.0).into_iter().enumerate() {
+        let expected = 1e-3 / 0.018_f64.powi(2) * through * entering(1.0) / PI;
+        // The mean over a disc, beside whose middle the way is longer.
+        assert!((found[channel] / expected - 1.0).abs() < 0.03, "{channel}: {found:?}, not {expected}");
+    }
 }

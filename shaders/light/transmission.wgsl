@@ -48,6 +48,9 @@ fn transmitted_share(
     let along = cross(normal, across);
     // A ray's way is longer than that along the axis.
     let per_axis = light.millimetres_per_world_unit / max(-dot(towards, light.forward), 0.05);
+    // A lamp is nearer to where its light entered: that falls by the square of the distance from there.
+    let is_lamp = light.is_lamp != 0u;
+    let from_lamp = length(light.eye - world_position);
     var through = vec3f(0.0);
     var thickness_mm = 0.0;
     var seen = 0.0;
@@ -64,10 +67,13 @@ fn transmitted_share(
         let moved_mm = moved * light.millimetres_per_world_unit;
         let found_mm = thickness_between(way_mm, moved_mm, facing_away, parallel);
         // Where the map saw nothing, nothing comes through: what was not measured does not glow.
-        let counts = select(0.0, 1.0, lit.is_seen);
+        let seen_here = select(0.0, 1.0, lit.is_seen);
+        let way = max(way_mm, 0.0) / light.millimetres_per_world_unit;
+        let nearer = from_lamp / max(from_lamp - way, max(light.source, light.least_distance));
+        let counts = seen_here * select(1.0, nearer * nearer, is_lamp);
         through += counts * slab_transmittance(slab_albedo, surface.slab_mean_free_path_mm, found_mm);
-        thickness_mm += counts * found_mm;
-        seen += counts;
+        thickness_mm += seen_here * found_mm;
+        seen += seen_here;
     }
     through /= f32(THICKNESS_TAPS);
     if !PROFILES_TRANSMIT {
