@@ -1,4 +1,4 @@
-//! A graphics driver: found, or installed where that is allowed.
+//! A graphics driver and a C++ compiler: found, or installed where that is allowed.
 
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -7,6 +7,9 @@ use crate::shell::{self, Failure, cargo, run};
 
 /// Debian's software Vulkan driver (lavapipe) and the loader.
 const PACKAGES: [&str; 2] = ["mesa-vulkan-drivers", "libvulkan1"];
+
+/// Debian's C++ compiler: `subsurface compare` is built with FLIP, which is written in it.
+const COMPILER: [&str; 1] = ["g++"];
 
 /// Where Vulkan's loader looks for the description of a driver.
 const DESCRIPTIONS: [&str; 4] = [
@@ -61,26 +64,48 @@ impl Build {
     }
 }
 
+/// Finds a C++ compiler, or installs one.
+pub(crate) fn ensure_compiler() -> Result<(), Failure> {
+    let runs = |program: &str| {
+        let mut command = Command::new(program);
+        command.arg("--version").stdout(Stdio::null()).stderr(Stdio::null());
+        command.status().is_ok_and(|status| status.success())
+    };
+    // Elsewhere Rust's own linker comes with one.
+    if !cfg!(target_os = "linux") || std::env::var_os("CXX").is_some() || runs("c++") {
+        return Ok(());
+    }
+    if !has_apt_get() {
+        let help = "install one: on Fedora `dnf install gcc-c++`, on Arch `pacman -S gcc`";
+        return Err(Failure(format!("no C++ compiler\n  = help: {help}")));
+    }
+    println!("No C++ compiler: installing {} …", COMPILER.join(" "));
+    install(&COMPILER)
+        .map_err(|why| Failure(format!("no C++ compiler ({why})\n  = help: apt-get install g++")))
+}
+
 /// Builds the command line and asks it for an adapter; installs a software driver if there is none.
 pub(crate) fn ensure(build: Build) -> Result<(), Failure> {
+    if let Build::Test = build {
+        ensure_compiler()?;
+    }
     // A Linux without any driver needs one for sure: then the download does not wait for the build.
     let installing = (cfg!(target_os = "linux") && has_apt_get() && !is_described()).then(|| {
         println!("No Vulkan driver: installing {} during the build …", PACKAGES.join(" "));
-        std::thread::spawn(install)
+        std::thread::spawn(|| install(&PACKAGES))
     });
     let built = build.run();
-    let installed = installing.map(|thread| {
-        thread.join().unwrap_or_else(|_| Err(Failure("the installation broke off".to_owned())))
-    });
+    let installed = installing
+        .map(|thread| thread.join().unwrap_or_else(|_| Err("the installation broke off".to_owned())));
     built?;
     if has_adapter(build) {
         return Ok(());
     }
     match installed {
-        Some(result) => result?,
+        Some(result) => result.map_err(|why| Failure(remedy(&why)))?,
         None if has_apt_get() => {
             println!("No graphics adapter: installing {} …", PACKAGES.join(" "));
-            install()?;
+            install(&PACKAGES).map_err(|why| Failure(remedy(&why)))?;
         }
         None => return Err(Failure(remedy("this system has no apt-get"))),
     }
@@ -108,12 +133,13 @@ fn has_adapter(build: Build) -> bool {
     build.program().arg("adapter").status().is_ok_and(|status| status.success())
 }
 
-fn install() -> Result<(), Failure> {
+/// Installs packages; why not, if not.
+fn install(packages: &[&str]) -> Result<(), String> {
     for arguments in [&["update"][..], &["install", "--yes", "--no-install-recommends"]] {
-        let packages: &[&str] = if arguments[0] == "install" { &PACKAGES } else { &[] };
+        let packages = if arguments[0] == "install" { packages } else { &[] };
         let mut command = privileged("apt-get");
         command.env("DEBIAN_FRONTEND", "noninteractive").args(arguments).args(packages).stdout(Stdio::null());
-        run(&mut command).map_err(|Failure(why)| Failure(remedy(&why)))?;
+        run(&mut command).map_err(|Failure(why)| why)?;
     }
     Ok(())
 }

@@ -4,7 +4,8 @@
 //!
 //! - `@figure NAME.svg "caption" = ARGUMENTS` runs `subsurface ARGUMENTS --out FIGURES/NAME.svg`, and shows the figure, its
 //!   caption and the command;
-//! - `@sheet NAME.png "caption" = ARGUMENTS` the same with `--sheet`, and shows what the command prints too;
+//! - `@image NAME.png "caption" = ARGUMENTS` does the same with `--sheet`;
+//! - `@sheet NAME.png "caption" = ARGUMENTS` also shows what the command prints;
 //! - `@output = ARGUMENTS` shows the command and what it prints;
 //! - `@run = ARGUMENTS` shows the command alone;
 //! - `@published = FILTER` shows the tables that the conformance suite's tests of that name print.
@@ -35,7 +36,7 @@ pub(crate) const PICTURES: Page = Page { name: "pictures", is_exact: false };
 const LARGEST_FIGURE: usize = 40 * 1024;
 
 /// The same of a sheet of pictures.
-const LARGEST_SHEET: usize = 400 * 1024;
+const LARGEST_SHEET: usize = 600 * 1024;
 
 /// A file of the page: its path from the root, and its text.
 type Written = (PathBuf, Vec<u8>);
@@ -99,7 +100,7 @@ impl Page {
                     let _ = write!(page, "```sh\nsubsurface {arguments}\n```\n");
                 }
                 None if head == "published" => page.push_str(&published(arguments)?),
-                Some((kind @ ("figure" | "sheet"), rest)) => {
+                Some((kind @ ("figure" | "image" | "sheet"), rest)) => {
                     let (name, caption) = rest.split_once(' ').ok_or_else(malformed)?;
                     let (figure, text) = self.figure(kind, name, caption.trim_matches('"'), arguments)?;
                     page.push_str(&text);
@@ -131,7 +132,7 @@ impl Page {
         }
         let command = format!("subsurface {arguments} {flag} {}/{name}", self.figures());
         let image = format!("![{caption}]({}/{name})\n\n*{caption}*\n", self.name);
-        let text = if kind == "figure" {
+        let text = if kind != "sheet" {
             format!("{image}\n```sh\n{command}\n```\n")
         } else {
             // The last line names the sheet.

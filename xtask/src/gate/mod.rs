@@ -9,6 +9,7 @@ mod summary;
 
 use std::time::Instant;
 
+use crate::driver;
 use crate::shell::Failure;
 use step::{Outcome, Step};
 use summary::{Ended, Line};
@@ -40,6 +41,8 @@ impl Wanted {
 
 pub(crate) fn run_command(arguments: &[String]) -> Result<(), Failure> {
     let wanted = Wanted::parse(arguments)?;
+    // The lints build everything, before any test does.
+    driver::ensure_compiler()?;
     let steps: &[Step] = if wanted.is_quick { &steps::QUICK } else { &steps::ALL };
     let start = Instant::now();
     let mut lines: Vec<Line> = Vec::new();
