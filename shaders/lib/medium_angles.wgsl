@@ -82,6 +82,7 @@ fn matched_albedo(medium: MediumAngles) -> vec3f {
     return (1.0 - medium.root) * relative_half_space_albedo(u, medium.root);
 }
 
+/// The angles of light that enters at a cosine.
 fn entering_angles(medium: MediumAngles, cosine: f32) -> EnteringAngles {
     let below = refracted_cosine(cosine, medium.inverse_square);
     let u = half_space_u(below, medium.root);
@@ -113,7 +114,7 @@ fn medium_through(medium: MediumAngles, entering: EnteringAngles) -> vec3f {
     return medium.through * select(entering.h, vec3f(1.0), is_lambert);
 }
 
-/// The same of light that enters from everywhere alike.
+/// `medium_entry` of light that enters from everywhere alike.
 fn medium_ambient_entry(medium: MediumAngles) -> vec3f {
     return select(medium.ambient_entry, vec3f(1.0), medium.diffuse == DIFFUSE_LAMBERT);
 }

@@ -26,7 +26,7 @@ fn environment_irradiance(environment: Environment, normal: vec3f) -> vec3f {
         + c[1] * n.y + c[2] * n.z + c[3] * n.x
         + c[4] * (n.x * n.y) + c[5] * (n.y * n.z) + c[6] * (3.0 * n.z * n.z - 1.0)
         + c[7] * (n.x * n.z) + c[8] * (n.x * n.x - n.y * n.y);
-    // Nine coefficients ring below 0 behind a small bright light.
+    // The coefficients keep it from falling below 0, but for rounding.
     return environment.intensity * max(sum.rgb, vec3f(0.0));
 }
 

@@ -36,6 +36,6 @@ impl Default for DirectionalLight {
 
 impl DirectionalLight {
     pub(super) fn direction(&self) -> Vec3 {
-        unit(self.direction, Vec3::Y)
+        unit(self.direction, Vec3::NEG_Y)
     }
 }

@@ -27,7 +27,7 @@ const HYSTERESIS: f32 = 1.1;
 pub struct LightRanks {
     importance: Vec<f32>,
     order: Vec<usize>,
-    /// Indices of the lights that have a map.
+    /// Indices of the lights that have a map, by rank: as many as their layers.
     mapped: Vec<usize>,
 }
 
@@ -51,6 +51,7 @@ impl LightRanks {
             by_importance.then_with(|| compare(&lights[a], &lights[b])).then(a.cmp(&b))
         };
         order.sort_unstable_by(|&a, &b| rank(a, b));
+        mapped.sort_unstable_by(|&a, &b| rank(a, b));
     }
 
     /// Indices of the lights, the most important first.
@@ -60,7 +61,7 @@ impl LightRanks {
 
     /// Indices of the lights with a shadow map, [`SHADOW_MAPS`] at most, by rank.
     pub fn mapped(&self) -> impl Iterator<Item = usize> + '_ {
-        self.order.iter().copied().filter(|index| self.mapped.contains(index))
+        self.mapped.iter().copied()
     }
 
     /// Layer of a light's shadow map.
