@@ -12,6 +12,7 @@ use std::path::{Path, PathBuf};
 use proc_macro2::TokenStream;
 use quote::quote;
 use sha2::{Digest, Sha256};
+use subsurface_kernel::constants::MOST_MATERIALS;
 use subsurface_kernel::{Estimator, KernelModule as ModuleParts, KernelParts, OutputFormat, Rejection};
 use subsurface_quality::QualityReport;
 
@@ -43,8 +44,8 @@ const KNOT_LIMIT: usize = 1 << 22;
 /// Texels of the curves and terms of a set: 256 MB. The shaders keep the number of a texel as an f32, exact up to here.
 const CURVE_TEXEL_LIMIT: u32 = 1 << 24;
 
-/// Materials that fit a set: the surface target keeps the number as a 16-bit float, exact up to 2048.
-const MATERIAL_LIMIT: usize = 2048;
+/// Materials that fit a set.
+const MATERIAL_LIMIT: usize = MOST_MATERIALS as usize;
 
 #[derive(Clone, Debug)]
 enum Source {

@@ -13,6 +13,7 @@ pub(crate) struct Draft<'a> {
     pub(crate) profile_name: Option<&'a Span>,
     pub(crate) length: LengthGiven,
     pub(crate) surface_albedo: Triple,
+    pub(crate) surface_albedo_mix: Option<&'a Spanned<f64>>,
     /// Where the medium is given by its coefficients.
     pub(crate) refractive_index: Option<&'a Spanned<f64>>,
     pub(crate) reflectance_at_normal: Option<&'a Spanned<f64>>,

@@ -149,6 +149,11 @@ fn emit_features(text: &mut String, set: &MaterialSet) {
             "DIFFUSE_LOBES",
             any(|material| material.diffuse.is_brdf()),
         ),
+        (
+            "Light is multiplied by a part of the surface albedo where it enters.",
+            "ALBEDO_MIXES",
+            any(|material| material.surface_albedo_mix > 0.0 && material.thin_thickness_mm.is_none()),
+        ),
         ("Materials are sheets.", "THIN_SHEETS", any(|material| material.thin_thickness_mm.is_some())),
         (
             "What comes through is what the profile says.",

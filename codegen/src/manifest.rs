@@ -41,6 +41,7 @@ pub(crate) fn manifest(of: &ManifestOf<'_>, module: &Module, reflection: &Reflec
                 "profile": material.profile.stem,
                 "mean_free_path_mm": material.mean_free_path_mm,
                 "surface_albedo": material.surface_albedo,
+                "surface_albedo_mix": material.surface_albedo_mix,
                 "specular": {
                     "reflectance_at_normal": material.reflectance_at_normal,
                     "roughness": material.roughness,

@@ -32,6 +32,9 @@ pub struct Material {
     pub mean_free_path_mm: [f64; 3],
     /// Surface albedo A = ∫ R(r) 2πr dr per channel, in [0, 1].
     pub surface_albedo: [f64; 3],
+    /// Power of the surface albedo that light is multiplied by where it enters, in [0, 1]; where it leaves, it is
+    /// multiplied by the rest: 0 blurs no texture, 1 blurs it as the light (d'Eon and Luebke 2007).
+    pub surface_albedo_mix: f64,
     /// Refractive index of the medium over that of what is outside, in [1, 2], where the material gives its coefficients:
     /// the surface albedo is then that of a medium below such a boundary, per energy that entered.
     pub refractive_index: Option<f64>,

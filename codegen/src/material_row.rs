@@ -58,6 +58,7 @@ pub(crate) fn row(
         ("second_weight", Value::scalar(material.second_lobe.map_or(0.0, |lobe| lobe.weight))),
         ("transmission_strength", Value::scalar(material.transmission_strength)),
         ("transmission_diffused", Value::U32(u32::from(material.transmission_diffused))),
+        ("surface_albedo_mix", Value::scalar(material.surface_albedo_mix)),
         ("first_curve", Value::U32(place.first_curve)),
         ("curve_count", Value::U32(place.curve_count)),
         ("first_edge", Value::U32(place.first_edge)),

@@ -75,6 +75,7 @@ struct Inherited<'a> {
     profile: &'a Given<(ProfileExpression, Span)>,
     length: &'a Given<OrMedium<LengthGiven>>,
     surface_albedo: &'a Given<OrMedium<Triple>>,
+    surface_albedo_mix: &'a Given<Spanned<f64>>,
     refractive_index: &'a Given<Spanned<f64>>,
     reflectance_at_normal: &'a Given<Spanned<f64>>,
     roughness: &'a Given<Spanned<f64>>,
@@ -234,6 +235,7 @@ impl Resolution {
             profile: &material.profile,
             length: &material.length,
             surface_albedo: &material.surface_albedo,
+            surface_albedo_mix: &material.surface_albedo_mix,
             refractive_index: &material.refractive_index,
             reflectance_at_normal: &material.reflectance_at_normal,
             roughness: &material.roughness,
@@ -263,6 +265,7 @@ impl Resolution {
                 profile: first(inherited.profile, &next.profile),
                 length: first(inherited.length, &next.length),
                 surface_albedo: first(inherited.surface_albedo, &next.surface_albedo),
+                surface_albedo_mix: first(inherited.surface_albedo_mix, &next.surface_albedo_mix),
                 refractive_index: first(inherited.refractive_index, &next.refractive_index),
                 reflectance_at_normal: first(inherited.reflectance_at_normal, &next.reflectance_at_normal),
                 roughness: first(inherited.roughness, &next.roughness),
@@ -312,6 +315,7 @@ impl Resolution {
             OrMedium::Medium(medium) => medium.surface_albedo(self.entry(&profile, diffuse, &medium.key)),
         };
         let numbers = [
+            inherited.surface_albedo_mix,
             inherited.reflectance_at_normal,
             inherited.roughness,
             inherited.transmission_strength,
@@ -332,6 +336,7 @@ impl Resolution {
             profile_name,
             length,
             surface_albedo,
+            surface_albedo_mix: inherited.surface_albedo_mix.value(),
             refractive_index: inherited.refractive_index.value(),
             reflectance_at_normal: inherited.reflectance_at_normal.value(),
             roughness: inherited.roughness.value(),
@@ -517,6 +522,7 @@ fn finish(file: &MaterialFile, draft: Draft<'_>) -> Material {
         docs: file.docs.clone(),
         mean_free_path_mm: draft.length.value.values,
         surface_albedo: draft.surface_albedo.values,
+        surface_albedo_mix: number(draft.surface_albedo_mix, 0.0),
         refractive_index: draft.refractive_index.map(|index| index.value),
         reflectance_at_normal: number(
             draft.reflectance_at_normal,

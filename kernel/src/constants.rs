@@ -206,6 +206,9 @@ constants! {
     /// must not outshine all others.
     LARGEST_WEIGHT: F32(f64) = 1e4;
 
+    /// Materials that fit a set: targets keep the number as a half float, exact up to here.
+    MOST_MATERIALS: U32(u32) = 2048;
+
     /// `layer` of a light without a shadow map.
     NO_SHADOW_MAP: U32(u32) = 0xffff;
 }

@@ -39,6 +39,7 @@ pub use wgpu_29 as wgpu;
 #[cfg(feature = "wgpu-30")]
 pub use wgpu_30 as wgpu;
 
+mod albedo_mixes;
 mod bind_error;
 mod bindings;
 mod camera;

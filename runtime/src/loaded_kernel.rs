@@ -5,6 +5,7 @@ use std::sync::{Arc, OnceLock};
 
 use subsurface_kernel::{Estimator, KernelModule, KernelParts, OutputFormat};
 
+use crate::albedo_mixes::AlbedoMixes;
 use crate::load_error::LoadError;
 use crate::material_table::{MaterialTable, storage_buffers};
 use crate::target::Target;
@@ -33,6 +34,7 @@ struct Loaded {
     material_names: Vec<String>,
     has_profile_tables: bool,
     table: MaterialTable,
+    albedo_mixes: AlbedoMixes,
     shader: wgpu::ShaderModule,
     /// The module for other output formats, by their place in `OutputFormat::ALL`: made when a pass first asks for one.
     other_shaders: [OnceLock<wgpu::ShaderModule>; OutputFormat::ALL.len()],
@@ -68,6 +70,7 @@ impl LoadedKernel {
             material_names: parts.material_names().map(str::to_owned).collect(),
             has_profile_tables: !parts.profile_tables().is_empty(),
             table,
+            albedo_mixes: AlbedoMixes::of(device, parts),
             shader: shader_module(device, "LoadedKernel module", parts.module().wgsl().into()),
             other_shaders: Default::default(),
             unit_scale,
@@ -135,6 +138,10 @@ impl LoadedKernel {
     /// Storage buffers that the kernel reads in every stage.
     pub(crate) fn storage_buffers(&self) -> u32 {
         storage_buffers(self.0.module.row_binding(), self.0.has_profile_tables)
+    }
+
+    pub(crate) fn albedo_mixes(&self) -> &AlbedoMixes {
+        &self.0.albedo_mixes
     }
 
     pub(crate) fn unit_scale(&self) -> &wgpu::TextureView {

@@ -140,7 +140,13 @@ impl Renderer {
         )?;
         let composite = CompositePass::new(
             device,
-            &CompositeDescriptor { label: composite, format, pipeline_cache, timestamps: timestamps(3) },
+            &CompositeDescriptor {
+                label: composite,
+                format,
+                kernel: Some(kernel),
+                pipeline_cache,
+                timestamps: timestamps(3),
+            },
         );
         let label = Label::new(descriptor.label, NAME);
         Ok(Self {
@@ -165,7 +171,9 @@ impl Renderer {
             return Err(PassError::NoGBuffer);
         }
         self.subsurface.set_kernel(device, kernel)?;
-        self.gbuffer.set_kernel(device, kernel)
+        self.gbuffer.set_kernel(device, kernel)?;
+        self.composite.set_kernel(device, Some(kernel));
+        Ok(())
     }
 
     /// Lights all objects from all around too, or no more; [`Frame`] says how bright it is and how it is turned.

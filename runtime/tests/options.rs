@@ -12,7 +12,7 @@ use subsurface_runtime::{
 const SIZE: Extent = Extent::new(48, 48);
 
 /// Fields of RON, by option; the first of each is the default.
-const OPTIONS: [&[&str]; 8] = [
+const OPTIONS: [&[&str]; 9] = [
     &[
         "profile: \"two_exponential_dipole_searchlight\"",
         "profile: \"burley_dmfp\"",
@@ -48,6 +48,7 @@ const OPTIONS: [&[&str]; 8] = [
     ],
     &["", "transmittance: Profile", "transmittance: Slab", "thin: (thickness_mm: 0.2)"],
     &["", "transmission: (diffused: true)", "transmission_strength: 0", "transmission_strength: 2"],
+    &["", "surface_albedo_mix: 0.5", "surface_albedo_mix: 1"],
 ];
 
 /// Materials in which each two choices of different options meet: greedily, the one with the most new pairs next.
@@ -90,7 +91,7 @@ fn text(row: &[usize; OPTIONS.len()]) -> String {
     let field = |option: usize| OPTIONS[option][row[option]];
     let specular: Vec<&str> = [2, 3, 4].map(field).into_iter().filter(|field| !field.is_empty()).collect();
     let others: Vec<&str> =
-        [0, 1, 5, 6, 7].map(field).into_iter().filter(|field| !field.is_empty()).collect();
+        [0, 1, 5, 6, 7, 8].map(field).into_iter().filter(|field| !field.is_empty()).collect();
     format!("Material({}, specular: ({}))", others.join(", "), specular.join(", "))
 }
 

@@ -35,6 +35,8 @@ struct MaterialSurface {
     transmission_strength: f32,
     /// 1: what comes through diffuses below the surface that it leaves by; 0: it leaves where it arrives.
     transmission_diffused: u32,
+    /// Power of the surface albedo by which light is multiplied where it enters, 0 to 1; the rest where it leaves.
+    surface_albedo_mix: f32,
     /// First row of the quantile curves of its profile in `profile_curves`.
     first_curve: u32,
     /// Number of its curves: one per node of the surface albedo, or one per channel.

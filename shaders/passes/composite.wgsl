@@ -1,4 +1,4 @@
-// uses: lib/{angle, covering_triangle, medium_angles, tone}
+// uses: kernel/constants, lib/{albedo_mix, angle, covering_triangle, medium_angles, tone}
 
 /// How radiance becomes a picture.
 struct CompositeSettings {
@@ -14,13 +14,18 @@ struct CompositeSettings {
     encode_srgb: u32,
 }
 
+/// Whether light was multiplied by a part of the surface albedo before it diffused; the pipeline says it.
+override HAS_ALBEDO_MIXES: bool = false;
+
 @group(0) @binding(0) var<uniform> composite_settings: CompositeSettings;
 /// Irradiance after the subsurface pass; alpha is the share of it that the specular lobe lets out.
 @group(0) @binding(1) var diffused_texture: texture_2d<f32>;
 /// Specular reflection + transmission, radiance; alpha: see `pack_exit`, 0 behind all geometry.
 @group(0) @binding(2) var unscattered_texture: texture_2d<f32>;
-/// Surface albedo (red, green, blue).
+/// Surface albedo (red, green, blue) and the material number.
 @group(0) @binding(3) var surface_texture: texture_2d<f32>;
+/// Power of the surface albedo that came before, four materials each.
+@group(0) @binding(4) var<uniform> albedo_mixes: array<vec4f, MOST_MATERIALS / 4u>;
 
 @vertex
 fn composite_vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
@@ -33,12 +38,17 @@ fn composite_fragment(@builtin(position) position: vec4f) -> @location(0) vec4f 
     let pixel = vec2i(position.xy);
     let diffused = textureLoad(diffused_texture, pixel, 0);
     let unscattered = textureLoad(unscattered_texture, pixel, 0);
-    let surface_albedo = textureLoad(surface_texture, pixel, 0).rgb;
+    let surface = textureLoad(surface_texture, pixel, 0);
+    var leaving_albedo = surface.rgb;
+    if HAS_ALBEDO_MIXES && surface.a >= 0.0 {
+        let material = min(u32(surface.a), MOST_MATERIALS - 1u);
+        leaving_albedo = albedo_after(surface.rgb, albedo_mixes[material / 4u][material % 4u]);
+    }
 
     let height = f32(textureDimensions(diffused_texture).y);
     let background = mix(composite_settings.background_top, composite_settings.background_bottom, position.y / height);
-    let exit = diffused.a * exit_of(unscattered.a, surface_albedo);
-    let lit = diffused.rgb * surface_albedo / PI * exit + unscattered.rgb;
+    let exit = diffused.a * exit_of(unscattered.a, surface.rgb);
+    let lit = diffused.rgb * leaving_albedo / PI * exit + unscattered.rgb;
     let radiance = composite_settings.exposure * select(background, lit, unscattered.a > 0.5);
 
     var colour = radiance;

@@ -1,4 +1,4 @@
-// uses: gather/input, kernel/constants, lib/{angle, medium_angles, noise, numeric_limits, object_transform, slab}, light/{coupling, diffuse_lobe, environment, light, normal_map, shadow, specular_surface, transmission}, the material set
+// uses: gather/input, kernel/constants, lib/{albedo_mix, angle, medium_angles, noise, numeric_limits, object_transform, slab}, light/{coupling, diffuse_lobe, environment, light, normal_map, shadow, specular_surface, transmission}, the material set
 
 /// Camera and light from everywhere of one frame.
 struct GBufferFrame {
@@ -161,6 +161,12 @@ fn gbuffer_fragment(interpolated: GBufferInterpolated, @builtin(front_facing) fr
         sheet = slab_transmittance(slab_albedo, sheet_length, row.surface.thin_thickness_mm);
     }
 
+    // A sheet sends back from where light entered.
+    var albedo_mix = 0.0;
+    if ALBEDO_MIXES {
+        albedo_mix = select(0.0, row.surface.surface_albedo_mix, translucent && !is_thin);
+    }
+
     var around = frame.ambient_irradiance;
     var around_behind = frame.ambient_irradiance;
     var reflected = frame.ambient_irradiance / PI;
@@ -233,13 +239,20 @@ fn gbuffer_fragment(interpolated: GBufferInterpolated, @builtin(front_facing) fr
         );
         through += behind * select(share * medium_through(medium, angles), visibility * sheet, is_thin);
     }
+    if ALBEDO_MIXES {
+        irradiance *= albedo_before(surface_albedo, albedo_mix);
+    }
     through *= transmission;
     if TRANSMISSION_DIFFUSES && row.surface.transmission_diffused != 0u && !is_thin {
         // As much irradiance as leaves with the same radiance where all is alike. What is nearly black diffuses little.
-        let diffusing = max(surface_albedo, vec3f(LEAST_DIFFUSING_ALBEDO));
+        var leaving_albedo = surface_albedo;
+        if ALBEDO_MIXES {
+            leaving_albedo = albedo_after(surface_albedo, albedo_mix);
+        }
+        let diffusing = max(leaving_albedo, vec3f(LEAST_DIFFUSING_ALBEDO));
         let diffused = select(vec3f(0.0), through / (diffusing * medium_exit(medium)), translucent);
         irradiance += diffused;
-        through *= 1.0 - surface_albedo / diffusing;
+        through *= 1.0 - leaving_albedo / diffusing;
     }
     unscattered += leaving * through / PI;
 

@@ -36,6 +36,7 @@ macro_rules! modules {
 
 /// Constants, noise and pure functions.
 pub const LIBRARY: &[Module] = modules![
+    "lib/albedo_mix",
     "lib/angle",
     "lib/covering_triangle",
     "lib/dipole_source",

@@ -21,7 +21,8 @@ Examples:
   subsurface diffuse --material marble --input in.exr --out out.exr --fov-y-degrees 24 --kernel importance-sampled:64
   subsurface diffuse --material skin --input in.exr --out out.exr --mm-per-pixel 0.2 --kernel dense
   subsurface diffuse --material skin --input in.exr --out out.exr --mm-per-pixel 0.2 \\
-      --mean-free-path-scale scale.exr")]
+      --mean-free-path-scale scale.exr
+  subsurface diffuse --material skin --input in.exr --out out.exr --mm-per-pixel 0.2 --albedo-mix 0.5")]
 pub struct DiffuseArguments {
     /// Directory of materials: one .ron file each, profiles in DIR/profiles.
     #[arg(long, value_name = "DIR", default_value = material_set::DEFAULT_DIRECTORY)]
@@ -41,6 +42,10 @@ pub struct DiffuseArguments {
     /// Factor on the mean free path per pixel: the channel Y, or R if there is none, of a file as large as the buffers.
     #[arg(long, value_name = "FILE.exr")]
     pub mean_free_path_scale: Option<PathBuf>,
+    /// Power of the surface albedo that the irradiance is multiplied by first: 0 takes it as it is, 1 blurs the texture as
+    /// the light. Multiply what comes out by the rest, surface albedo to the power of 1 - X.
+    #[arg(long, value_name = "X", default_value_t = 0.0, value_parser = number::albedo_mix, allow_hyphen_values = true)]
+    pub albedo_mix: f32,
     /// Which kernel diffuses.
     #[command(flatten)]
     pub kernel: KernelArguments,
@@ -85,6 +90,10 @@ pub fn run(arguments: &DiffuseArguments) -> Result<(), Failure> {
     let mut buffers = read(&arguments.input, material, materials.set.materials.len())?;
     if let Some(path) = &arguments.mean_free_path_scale {
         buffers.mean_free_path_scale = Some(read_scale(path, buffers.size)?);
+    }
+    if arguments.albedo_mix > 0.0 {
+        let of_materials = materials.set.materials.iter().map(|material| material.surface_albedo);
+        buffers.mix_albedo(arguments.albedo_mix, &of_materials.collect::<Vec<_>>());
     }
     let picture = {
         let _spinner = Spinner::new("diffusing");

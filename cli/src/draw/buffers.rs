@@ -41,3 +41,41 @@ pub struct Buffers {
     /// Factor on the mean free path, ≥ 0; `None`: 1.
     pub mean_free_path_scale: Option<Vec<f32>>,
 }
+
+impl Buffers {
+    /// Multiplies the irradiance by this power of the surface albedo, that of its material where no buffer says.
+    pub fn mix_albedo(&mut self, mix: f32, of_materials: &[[f64; 3]]) {
+        for (pixel, irradiance) in self.irradiance.iter_mut().enumerate() {
+            let surface_albedo = match &self.surface_albedo {
+                Some(given) => given[pixel],
+                None => of_materials[self.material[pixel] as usize].map(|albedo| albedo as f32),
+            };
+            for (light, albedo) in irradiance.iter_mut().zip(surface_albedo) {
+                *light *= albedo.powf(mix);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn irradiance_is_multiplied_by_a_power_of_the_surface_albedo() {
+        let mut buffers = Buffers {
+            size: Size { width: 2, height: 1 },
+            irradiance: vec![[2.0; 3]; 2],
+            depth_mm: vec![1.0; 2],
+            surface_albedo: Some(vec![[0.25, 1.0, 0.0], [0.25; 3]]),
+            material: vec![0, 0],
+            mean_free_path_scale: None,
+        };
+        buffers.mix_albedo(0.5, &[[0.0; 3]]);
+        assert_eq!(buffers.irradiance, [[1.0, 2.0, 0.0], [1.0; 3]]);
+        // Without a buffer, the material's own.
+        buffers.surface_albedo = None;
+        buffers.mix_albedo(1.0, &[[0.5, 0.25, 1.0]]);
+        assert_eq!(buffers.irradiance, [[0.5, 0.5, 0.0], [0.5, 0.25, 1.0]]);
+    }
+}

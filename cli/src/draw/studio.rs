@@ -128,7 +128,8 @@ impl Studio {
             let renderer = Renderer::new(&device.device, &kernel, &descriptor)
                 .map_err(|error| Failure::new(error.to_string(), "choose another --path, or none"))?;
             route.check(&renderer.subsurface)?;
-            let descriptor = CompositeDescriptor { format: LINEAR_FORMAT, ..Default::default() };
+            let descriptor =
+                CompositeDescriptor { format: LINEAR_FORMAT, kernel: Some(&kernel), ..Default::default() };
             Ok((renderer, CompositePass::new(&device.device, &descriptor)))
         })?;
         Ok(Self { device, renderer, linear, timer, is_warm: false })

@@ -80,7 +80,7 @@ pub fn runtime_bindings() -> Result<String, Report> {
         &kernel.reflection,
         &paths,
         |group| group != 0,
-        &[ROW, "MaterialSurface", "BurleyModel"],
+        &[ROW, "BurleyModel"],
     );
     tokens.extend(quote! {
         /// Bindings that every kernel module has, whatever its materials.

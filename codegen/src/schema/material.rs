@@ -12,8 +12,8 @@ use crate::schema::diffuse::{DiffuseGiven, decode_diffuse};
 use crate::schema::medium::{OrMedium, decode_medium};
 use crate::schema::profile::{ProfileExpression, decode_profile};
 use crate::schema::quantity::{
-    DIFFUSE_MEAN_FREE_PATH, LOBE_WEIGHT, MEAN_FREE_PATH, REFLECTANCE, ROUGHNESS, SURFACE_ALBEDO, THICKNESS,
-    TRANSMISSION,
+    DIFFUSE_MEAN_FREE_PATH, LOBE_WEIGHT, MEAN_FREE_PATH, REFLECTANCE, ROUGHNESS, SURFACE_ALBEDO,
+    SURFACE_ALBEDO_MIX, THICKNESS, TRANSMISSION,
 };
 use crate::schema::set_file::SET;
 use crate::source::{FileId, Span, Spanned};
@@ -36,6 +36,7 @@ pub(crate) struct MaterialFile {
     pub(crate) profile: Given<(ProfileExpression, Span)>,
     pub(crate) length: Given<OrMedium<LengthGiven>>,
     pub(crate) surface_albedo: Given<OrMedium<Triple>>,
+    pub(crate) surface_albedo_mix: Given<Spanned<f64>>,
     /// Where the medium is given by its coefficients.
     pub(crate) refractive_index: Given<Spanned<f64>>,
     pub(crate) reflectance_at_normal: Given<Spanned<f64>>,
@@ -59,7 +60,7 @@ pub(crate) struct LengthGiven {
     pub(crate) value: Triple,
 }
 
-const FIELDS: [&str; 14] = [
+const FIELDS: [&str; 15] = [
     "version",
     "name",
     "base",
@@ -67,6 +68,7 @@ const FIELDS: [&str; 14] = [
     "mean_free_path_mm",
     "diffuse_mean_free_path_mm",
     "surface_albedo",
+    "surface_albedo_mix",
     "medium",
     "specular",
     "diffuse",
@@ -166,6 +168,9 @@ fn decode_fields(
     let length = decode_length(decoder, &fields);
     let surface_albedo = fields
         .optional("surface_albedo", |node| decoder.triple(node, "surface_albedo", RGB, &SURFACE_ALBEDO));
+    let surface_albedo_mix = fields.optional("surface_albedo_mix", |node| {
+        decoder.spanned_number(node, "surface_albedo_mix", &SURFACE_ALBEDO_MIX)
+    });
     let (length, surface_albedo, refractive_index) = match fields.get("medium") {
         None => (length.map(OrMedium::Value), surface_albedo.map(OrMedium::Value), Given::Absent),
         Some(entry) => {
@@ -198,6 +203,7 @@ fn decode_fields(
         profile,
         length,
         surface_albedo,
+        surface_albedo_mix,
         refractive_index,
         reflectance_at_normal,
         roughness,

@@ -27,6 +27,14 @@ pub(crate) const SURFACE_ALBEDO: Quantity = Quantity {
     meaning: "give the share of the light that the surface reflects in all, from 0 (black) to 1 (white)",
 };
 
+pub(crate) const SURFACE_ALBEDO_MIX: Quantity = Quantity {
+    noun: "surface albedo mix",
+    unit: "",
+    bounds: Bounds::Unit,
+    kind: "number",
+    meaning: "give the power of the surface albedo that light is multiplied by where it enters: 0 for none of it, 1 for all, 0.5 for its square root",
+};
+
 pub(crate) const REFLECTANCE: Quantity = Quantity {
     noun: "reflectance at normal incidence",
     unit: "",

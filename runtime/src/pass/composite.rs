@@ -1,10 +1,13 @@
 //! Pass 4: radiance, tone mapping, sRGB.
 
+use crate::albedo_mixes::AlbedoMixes;
 use crate::bind_error::BindError;
 use crate::bindings::composite::{self, BindGroup0, ENTRY_COMPOSITE_FRAGMENT, ENTRY_COMPOSITE_VERTEX, WGSL};
+use crate::extent::Extent;
 use crate::frame_error::FrameError;
 use crate::input::{Holds, Input};
 use crate::label::Label;
+use crate::loaded_kernel::LoadedKernel;
 use crate::timestamps::Timestamps;
 use crate::wgpu;
 
@@ -26,6 +29,9 @@ pub struct CompositeDescriptor<'a> {
     pub label: Option<&'a str>,
     /// Format of the picture; by default `Rgba8UnormSrgb`.
     pub format: wgpu::TextureFormat,
+    /// The kernel whose materials say how much of the surface albedo came before the light diffused
+    /// (`surface_albedo_mix`); by default none, and all of it comes afterwards.
+    pub kernel: Option<&'a LoadedKernel>,
     /// Where compiled pipelines are kept; by default nowhere.
     pub pipeline_cache: Option<&'a wgpu::PipelineCache>,
     /// Where the pass writes its times; by default nowhere.
@@ -37,6 +43,7 @@ impl Default for CompositeDescriptor<'_> {
         Self {
             label: None,
             format: wgpu::TextureFormat::Rgba8UnormSrgb,
+            kernel: None,
             pipeline_cache: None,
             timestamps: None,
         }
@@ -52,7 +59,7 @@ pub struct CompositeInputs<'a> {
     /// Specular reflection + transmission; alpha is 0 where the background shows, and on geometry 1 or what
     /// [`GBuffer::unscattered`](crate::GBuffer::unscattered) says.
     pub unscattered: &'a wgpu::TextureView,
-    /// Surface albedo.
+    /// Surface albedo; alpha is the material number, below 0 for none.
     pub surface: &'a wgpu::TextureView,
 }
 
@@ -98,25 +105,53 @@ impl Default for CompositeSettings {
 /// The picture's alpha is 1 on geometry and 0 on the background, whose colour is written all the
 /// same. Colours are not multiplied by it.
 #[derive(Debug)]
-pub struct CompositePass(CoveringPass);
+pub struct CompositePass {
+    covering: CoveringPass,
+    albedo_mixes: AlbedoMixes,
+    pipeline_cache: Option<wgpu::PipelineCache>,
+    timestamps: Option<Timestamps>,
+    bound: Option<BoundInputs>,
+}
+
+/// Kept for another kernel.
+#[derive(Debug)]
+struct BoundInputs {
+    size: Extent,
+    diffused: wgpu::TextureView,
+    unscattered: wgpu::TextureView,
+    surface: wgpu::TextureView,
+}
 
 impl CompositePass {
     /// Pipeline and layout.
     pub fn new(device: &wgpu::Device, descriptor: &CompositeDescriptor<'_>) -> Self {
-        let label = Label::new(descriptor.label, NAME);
-        let layout = BindGroup0::layout(device, &label.of("layout"));
-        let of = CoveringPassDescriptor {
-            name: NAME,
-            label,
-            wgsl: WGSL,
-            entries: (ENTRY_COMPOSITE_VERTEX, ENTRY_COMPOSITE_FRAGMENT),
-            layout,
-            format: descriptor.format,
-            background: wgpu::Color::BLACK,
-            pipeline_cache: descriptor.pipeline_cache,
-            timestamps: descriptor.timestamps.clone(),
+        let albedo_mixes = match descriptor.kernel {
+            Some(kernel) => kernel.albedo_mixes().clone(),
+            None => AlbedoMixes::none(device),
         };
-        Self(CoveringPass::new::<composite::CompositeSettings>(device, of))
+        let (cache, timestamps) = (descriptor.pipeline_cache, descriptor.timestamps.clone());
+        let label = Label::new(descriptor.label, NAME);
+        let covering = covering(device, label, descriptor.format, cache, timestamps, &albedo_mixes);
+        Self {
+            covering,
+            albedo_mixes,
+            pipeline_cache: cache.cloned(),
+            timestamps: descriptor.timestamps.clone(),
+            bound: None,
+        }
+    }
+
+    /// Takes another kernel, or none: see [`CompositeDescriptor::kernel`]. What is bound stays; call
+    /// [`prepare`](Self::prepare) before the next frame.
+    pub fn set_kernel(&mut self, device: &wgpu::Device, kernel: Option<&LoadedKernel>) {
+        self.albedo_mixes = match kernel {
+            Some(kernel) => kernel.albedo_mixes().clone(),
+            None => AlbedoMixes::none(device),
+        };
+        let (label, format) = (self.covering.label().clone(), self.covering.format());
+        let (cache, timestamps) = (self.pipeline_cache.as_ref(), self.timestamps.clone());
+        self.covering = covering(device, label, format, cache, timestamps, &self.albedo_mixes);
+        self.bind_group(device);
     }
 
     /// Binds the inputs. Call it again when a view is replaced; the pass has no target of its own.
@@ -129,15 +164,27 @@ impl CompositePass {
         for (name, view) in [("unscattered", unscattered), ("surface", surface)] {
             Input::new(name, view).check(device, Holds::Colours)?.as_large_as(first)?;
         }
-        let bind_group = BindGroup0 {
-            composite_settings: self.0.uniform(),
-            diffused_texture: diffused,
-            unscattered_texture: unscattered,
-            surface_texture: surface,
-        }
-        .create(device, self.0.layout(), &self.0.label().of("bind group"));
-        self.0.bind(first.size(), bind_group);
+        self.bound = Some(BoundInputs {
+            size: first.size(),
+            diffused: diffused.clone(),
+            unscattered: unscattered.clone(),
+            surface: surface.clone(),
+        });
+        self.bind_group(device);
         Ok(())
+    }
+
+    fn bind_group(&mut self, device: &wgpu::Device) {
+        let Some(bound) = &self.bound else { return };
+        let group = BindGroup0 {
+            composite_settings: self.covering.uniform(),
+            diffused_texture: &bound.diffused,
+            unscattered_texture: &bound.unscattered,
+            surface_texture: &bound.surface,
+            albedo_mixes: self.albedo_mixes.buffer(),
+        }
+        .create(device, self.covering.layout(), &self.covering.label().of("bind group"));
+        self.covering.bind(bound.size, group);
     }
 
     /// Uploads this frame's settings.
@@ -145,7 +192,7 @@ impl CompositePass {
     /// # Errors
     /// Nothing is bound.
     pub fn prepare(&mut self, queue: &wgpu::Queue, settings: &CompositeSettings) -> Result<(), FrameError> {
-        let encode = settings.tone_map && !self.0.format().is_srgb();
+        let encode = settings.tone_map && !self.covering.format().is_srgb();
         let uniform = composite::CompositeSettings {
             background_top: settings.background[0],
             exposure: settings.exposure,
@@ -154,7 +201,7 @@ impl CompositePass {
             encode_srgb: u32::from(encode),
             padding_36: [0; 12],
         };
-        self.0.prepare(queue, &uniform)
+        self.covering.prepare(queue, &uniform)
     }
 
     /// Records the pass into `output`, which has the inputs' size and the descriptor's format.
@@ -166,6 +213,31 @@ impl CompositePass {
         encoder: &mut wgpu::CommandEncoder,
         output: &wgpu::TextureView,
     ) -> Result<(), FrameError> {
-        self.0.encode(encoder, output)
+        self.covering.encode(encoder, output)
     }
+}
+
+/// The pass over all pixels, for these mixes.
+fn covering(
+    device: &wgpu::Device,
+    label: Label,
+    format: wgpu::TextureFormat,
+    pipeline_cache: Option<&wgpu::PipelineCache>,
+    timestamps: Option<Timestamps>,
+    albedo_mixes: &AlbedoMixes,
+) -> CoveringPass {
+    let layout = BindGroup0::layout(device, &label.of("layout"));
+    let of = CoveringPassDescriptor {
+        name: NAME,
+        label,
+        wgsl: WGSL,
+        entries: (ENTRY_COMPOSITE_VERTEX, ENTRY_COMPOSITE_FRAGMENT),
+        constants: &[("HAS_ALBEDO_MIXES", f64::from(u8::from(albedo_mixes.is_used())))],
+        layout,
+        format,
+        background: wgpu::Color::BLACK,
+        pipeline_cache,
+        timestamps,
+    };
+    CoveringPass::new::<composite::CompositeSettings>(device, of)
 }

@@ -20,6 +20,8 @@ pub(super) struct CoveringPassDescriptor<'a> {
     pub(super) wgsl: &'static str,
     /// Vertex and fragment entry points.
     pub(super) entries: (&'a str, &'a str),
+    /// Values of the module's `override`s.
+    pub(super) constants: &'a [(&'a str, f64)],
     /// Layout of bind group 0.
     pub(super) layout: wgpu::BindGroupLayout,
     /// Format of the output.
@@ -57,7 +59,7 @@ impl CoveringPass {
             label: &label.of("pipeline"),
             module: &module,
             entries: descriptor.entries,
-            constants: &[],
+            constants: descriptor.constants,
             bind_group_layouts: &[Some(&layout)],
             targets: &[Some(format.into())],
             depth_stencil: None,

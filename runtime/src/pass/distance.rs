@@ -44,6 +44,7 @@ impl DistancePass {
             label,
             wgsl: WGSL,
             entries: (ENTRY_DISTANCE_VERTEX, ENTRY_DISTANCE_FRAGMENT),
+            constants: &[],
             layout,
             format: Self::FORMAT,
             background: wgpu::Color::TRANSPARENT,
