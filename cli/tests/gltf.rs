@@ -266,6 +266,22 @@ fn images_come_from_the_file_beside_it_or_a_data_uri() {
     bless("missing_texture", &textured(json!({"uri": "eyes.png"})).load().unwrap_err());
 }
 
+#[test]
+fn a_volume_is_as_thick_as_its_node_is_large() {
+    let mut file = File::triangle();
+    file.set("/nodes/0/scale", json!([2.0, 2.0, 2.0]));
+    file.set("/extensionsUsed", json!(["KHR_materials_volume"]));
+    let volume = |factor: f64| json!([{"extensions": {"KHR_materials_volume": {"thicknessFactor": factor}}}]);
+    file.primitive()["material"] = json!(0);
+    // Metres of the mesh: 4 mm, twice as large in the world. Without a thickness it is none.
+    for (factor, thickness_mm) in [(0.004, 8.0), (0.0, 0.0)] {
+        file.set("/materials", volume(factor));
+        let surface = &file.load().unwrap().scene.objects[0].surface;
+        assert!((surface.thickness_mm - thickness_mm).abs() < 1e-5, "{}", surface.thickness_mm);
+        assert!(surface.thickness.is_none());
+    }
+}
+
 fn base64(bytes: &[u8]) -> String {
     const ALPHABET: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     let mut text = String::new();

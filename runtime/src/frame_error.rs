@@ -44,6 +44,24 @@ pub enum FrameError {
         /// What the pass was made for.
         expected: wgpu::TextureFormat,
     },
+    /// An object scales the mean free path, and the pass has nowhere to write that to.
+    #[error(
+        "an object scales the mean free path, and {pass} was made without a target for it: set \
+         `mean_free_path_scale` of its descriptor"
+    )]
+    NoMeanFreePathScale {
+        /// The pass.
+        pass: &'static str,
+    },
+    /// The pass writes scales of the mean free path, and the targets have none.
+    #[error(
+        "{pass} writes scales of the mean free path, and the targets have none: make them with \
+         `GBuffer::with_mean_free_path_scale`"
+    )]
+    NoScaleTarget {
+        /// The pass.
+        pass: &'static str,
+    },
     /// The output may not be written as the pass writes.
     #[error(
         "{pass} writes to a texture of the usages {found:?}, and needs {expected:?}: make it with both, or let \

@@ -19,6 +19,8 @@ pub struct GBuffer {
     pub unscattered: Target,
     /// Surface albedo (red, green, blue) and the material number, −1 where nothing is translucent.
     pub surface: Target,
+    /// Factor on the mean free path, where [`with_mean_free_path_scale`](Self::with_mean_free_path_scale) made it.
+    pub mean_free_path_scale: Option<Target>,
     /// Depth and stencil: [`TRANSLUCENT_STENCIL`] marks translucent pixels.
     pub depth_stencil: Target,
     /// The depth aspect alone, for reading.
@@ -28,6 +30,8 @@ pub struct GBuffer {
 impl GBuffer {
     /// Format of the colour targets: half floats hold irradiance above 1 and material numbers to 2048 exactly.
     pub const COLOUR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
+    /// Format of the mean free path's scale.
+    pub const SCALE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R16Float;
     /// Format of depth and stencil: the one with a stencil that every WebGPU device has.
     pub const DEPTH_STENCIL_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth24PlusStencil8;
 
@@ -47,9 +51,20 @@ impl GBuffer {
             irradiance: colour("GBuffer irradiance")?,
             unscattered: colour("GBuffer unscattered")?,
             surface: colour("GBuffer surface")?,
+            mean_free_path_scale: None,
             depth_stencil,
             depth,
         })
+    }
+
+    /// The same with one more target of two bytes a pixel, for objects that scale the mean free path.
+    #[must_use]
+    pub fn with_mean_free_path_scale(mut self, device: &wgpu::Device) -> Self {
+        let (format, written) = (Self::SCALE_FORMAT, wgpu::TextureUsages::RENDER_ATTACHMENT);
+        let label = "GBuffer mean free path scale";
+        let scale = Target::of_checked_size(device, self.size(), format, written, label);
+        self.mean_free_path_scale = Some(scale);
+        self
     }
 
     /// Size of every target.

@@ -77,6 +77,17 @@ pub struct SurfaceDescriptor<'a> {
     pub specular_strength: Option<TexturePixels<'a>>,
     /// Factor on that strength, with a texture or without; by default 1.
     pub specular_strength_factor: f32,
+    /// Factor on the mean free path in the red channel (linear), for a medium that is denser in some places; by default
+    /// none. The renderer takes such objects where its descriptor's `mean_free_path_scale` says so.
+    pub mean_free_path_scale: Option<TexturePixels<'a>>,
+    /// Factor on that texture, or on the mean free path itself without one; kept within 0.001 and 1000, by default 1.
+    pub mean_free_path_scale_factor: f32,
+    /// Thickness in the green channel (linear, as in glTF's `KHR_materials_volume`), as a part of `thickness_mm`; by default
+    /// none.
+    pub thickness: Option<TexturePixels<'a>>,
+    /// Thickness in mm where that texture is 1, or everywhere without one: of a sheet in place of the material's; of what is
+    /// thick, for light that no shadow map sees through it, such as light from all around. 0, the default, is none.
+    pub thickness_mm: f32,
     /// Specular reflectance at normal incidence where there is no material, 0 to 1; by default 0.04, a dielectric of
     /// refractive index 1.5.
     pub opaque_reflectance_at_normal: f32,
@@ -98,6 +109,10 @@ impl Default for SurfaceDescriptor<'_> {
             roughness_factor: 1.0,
             specular_strength: None,
             specular_strength_factor: 1.0,
+            mean_free_path_scale: None,
+            mean_free_path_scale_factor: 1.0,
+            thickness: None,
+            thickness_mm: 0.0,
             opaque_reflectance_at_normal: 0.04,
             opaque_roughness: 0.6,
             world_from_object: Mat4::IDENTITY.to_cols_array_2d(),
@@ -127,7 +142,8 @@ pub struct Object {
     pub(crate) shadow_group: wgpu::BindGroup,
     uniform: wgpu::Buffer,
     material: Option<u32>,
-    has_specular_textures: bool,
+    has_details: bool,
+    scales_mean_free_path: bool,
 }
 
 impl Object {
@@ -151,6 +167,10 @@ impl Object {
         let roughness = roughness.upload(device, queue, Encoding::Linear, "Object roughness")?;
         let strength = surface.specular_strength.unwrap_or(white);
         let strength = strength.upload(device, queue, Encoding::Linear, "Object specular strength")?;
+        let scale = surface.mean_free_path_scale.unwrap_or(white);
+        let scale = scale.upload(device, queue, Encoding::Linear, "Object mean free path scale")?;
+        let thickness = surface.thickness.unwrap_or(white);
+        let thickness = thickness.upload(device, queue, Encoding::Linear, "Object thickness")?;
         let sampler = device.create_sampler(&wgpu::SamplerDescriptor {
             label: Some("Object sampler"),
             address_mode_u: wgpu::AddressMode::Repeat,
@@ -175,7 +195,8 @@ impl Object {
                 -1.0
             },
             specular_strength_factor: surface.specular_strength_factor.max(0.0),
-            padding_152: [0; 8],
+            mean_free_path_scale: surface.mean_free_path_scale_factor,
+            thickness_mm: surface.thickness_mm.max(0.0),
         };
         let uniform = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
             label: Some("Object uniform"),
@@ -190,6 +211,8 @@ impl Object {
             surface_sampler: &sampler,
             roughness_texture: &roughness.view,
             specular_strength_texture: &strength.view,
+            object_scale_texture: &scale.view,
+            thickness_texture: &thickness.view,
         }
         .create(
             device,
@@ -208,16 +231,33 @@ impl Object {
             &shadow::BindGroup1::layout(device, "Object shadow layout"),
             "Object shadow bind group",
         );
-        let has_specular_textures = surface.roughness.is_some()
+        let scales_mean_free_path =
+            surface.mean_free_path_scale.is_some() || surface.mean_free_path_scale_factor != 1.0;
+        let has_details = scales_mean_free_path
+            || surface.roughness.is_some()
             || surface.specular_strength.is_some()
-            || surface.specular_strength_factor != 1.0;
+            || surface.specular_strength_factor != 1.0
+            || surface.thickness_mm > 0.0;
         let material = surface.material;
-        Ok(Self { geometry, surface_group, shadow_group, uniform, material, has_specular_textures })
+        Ok(Self {
+            geometry,
+            surface_group,
+            shadow_group,
+            uniform,
+            material,
+            has_details,
+            scales_mean_free_path,
+        })
+    }
+
+    /// Whether the mean free path is not its material's own everywhere.
+    pub(crate) fn scales_mean_free_path(&self) -> bool {
+        self.scales_mean_free_path && self.is_translucent()
     }
 
     /// Whether its shading reads more textures than that of most.
-    pub(crate) fn has_specular_textures(&self) -> bool {
-        self.has_specular_textures
+    pub(crate) fn has_details(&self) -> bool {
+        self.has_details
     }
 
     /// Places the object: world space from the space of its vertices (columns). Uploads that alone; frames that are

@@ -36,6 +36,9 @@ pub struct RendererDescriptor<'a> {
     pub label: Option<&'a str>,
     /// Format of the picture; by default `Rgba8UnormSrgb`.
     pub format: wgpu::TextureFormat,
+    /// Whether objects may scale the mean free path, by a texture or a factor: one target more, of two bytes a pixel. By
+    /// default not.
+    pub mean_free_path_scale: bool,
     /// Path of the subsurface pass; by default the best that the device has.
     pub path: Option<Path>,
     /// How the compute path of the subsurface pass shares its work; by default what suits the device.
@@ -51,6 +54,7 @@ impl Default for RendererDescriptor<'_> {
         Self {
             label: None,
             format: wgpu::TextureFormat::Rgba8UnormSrgb,
+            mean_free_path_scale: false,
             path: None,
             shape: None,
             pipeline_cache: None,
@@ -93,6 +97,7 @@ pub struct Renderer {
     pub composite: CompositePass,
     label: Label,
     ranks: LightRanks,
+    mean_free_path_scale: bool,
     targets: Option<(GBuffer, Target)>,
 }
 
@@ -109,7 +114,8 @@ impl Renderer {
         kernel: &LoadedKernel,
         descriptor: &RendererDescriptor<'_>,
     ) -> Result<Self, PassError> {
-        let RendererDescriptor { format, path, shape, pipeline_cache, timer, .. } = *descriptor;
+        let RendererDescriptor { format, mean_free_path_scale, path, shape, pipeline_cache, timer, .. } =
+            *descriptor;
         let names = ["ShadowPass", "GBufferPass", "SubsurfacePass", "CompositePass"];
         let labels =
             names.map(|name| descriptor.label.map_or(name.to_owned(), |label| format!("{label} {name}")));
@@ -122,7 +128,12 @@ impl Renderer {
         let gbuffer = GBufferPass::new(
             device,
             kernel,
-            &GBufferDescriptor { label: gbuffer, pipeline_cache, timestamps: timestamps(1) },
+            &GBufferDescriptor {
+                label: gbuffer,
+                mean_free_path_scale,
+                pipeline_cache,
+                timestamps: timestamps(1),
+            },
         )?;
         let subsurface = SubsurfacePass::new(
             device,
@@ -156,6 +167,7 @@ impl Renderer {
             composite,
             label,
             ranks: LightRanks::default(),
+            mean_free_path_scale,
             targets: None,
         })
     }
@@ -197,7 +209,10 @@ impl Renderer {
         if self.targets.as_ref().is_some_and(|(targets, _)| targets.size() == size) {
             return Ok(());
         }
-        let targets = GBuffer::new(device, size)?;
+        let mut targets = GBuffer::new(device, size)?;
+        if self.mean_free_path_scale {
+            targets = targets.with_mean_free_path_scale(device);
+        }
         let mut written = wgpu::TextureUsages::RENDER_ATTACHMENT;
         if self.subsurface.path() == Path::Compute {
             written |= wgpu::TextureUsages::STORAGE_BINDING;
@@ -205,7 +220,11 @@ impl Renderer {
         let label = self.label.of("diffused irradiance");
         let diffused = Target::filled_by(device, size, GBuffer::COLOUR_FORMAT, written, &label)?;
         self.gbuffer.bind(device, self.shadow.maps())?;
-        let inputs = SubsurfaceInputs::new(&targets.irradiance.view, &targets.surface.view, &targets.depth);
+        let mut inputs =
+            SubsurfaceInputs::new(&targets.irradiance.view, &targets.surface.view, &targets.depth);
+        if let Some(scale) = &targets.mean_free_path_scale {
+            inputs = inputs.with_mean_free_path_scale(&scale.view);
+        }
         self.subsurface.bind(device, &inputs.with_depth_stencil(&targets.depth_stencil.view))?;
         self.composite.bind(
             device,

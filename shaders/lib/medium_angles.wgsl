@@ -114,6 +114,12 @@ fn medium_through(medium: MediumAngles, entering: EnteringAngles) -> vec3f {
     return medium.through * select(entering.h, vec3f(1.0), is_lambert);
 }
 
+/// `medium_through` of light that enters from everywhere alike: the mean of H is ⟨H⟩.
+fn medium_ambient_through(medium: MediumAngles) -> vec3f {
+    let is_lambert = medium.inverse_square < 1.0 || medium.diffuse == DIFFUSE_LAMBERT;
+    return medium.through / select(inverse_mean_h(medium.root), vec3f(1.0), is_lambert);
+}
+
 /// `medium_entry` of light that enters from everywhere alike.
 fn medium_ambient_entry(medium: MediumAngles) -> vec3f {
     return select(medium.ambient_entry, vec3f(1.0), medium.diffuse == DIFFUSE_LAMBERT);

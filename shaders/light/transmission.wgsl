@@ -12,6 +12,25 @@ fn profile_transmittance(profiles: ChannelProfiles, surface_albedo: vec3f, thick
     return surface_albedo * (vec3f(1.0) - channel_radial_cdf(profiles, thickness_mm));
 }
 
+/// What a thickness of a material lets through, by the law that it has; its lengths are `length_scale` times as long.
+fn material_transmittance(
+    surface: MaterialSurface,
+    profiles: ChannelProfiles,
+    surface_albedo: vec3f,
+    slab_albedo: vec3f,
+    length_scale: f32,
+    thickness_mm: f32,
+) -> vec3f {
+    let scaled_mm = thickness_mm / length_scale;
+    if !PROFILES_TRANSMIT {
+        return slab_transmittance(slab_albedo, surface.slab_mean_free_path_mm, scaled_mm);
+    }
+    let is_slab = surface.slab_mean_free_path_mm.r > 0.0;
+    let slab_length = select(vec3f(1.0), surface.slab_mean_free_path_mm, is_slab);
+    let of_slab = slab_transmittance(slab_albedo, slab_length, scaled_mm);
+    return select(profile_transmittance(profiles, surface_albedo, scaled_mm), of_slab, is_slab);
+}
+
 /// Thickness of an object, mm: `way_mm` is the light's way through it to a point that was moved in by `moved_mm`, and
 /// may be below 0 where that came out on the lit side.
 ///
@@ -25,7 +44,7 @@ fn thickness_between(way_mm: f32, moved_mm: f32, facing_away: f32, parallel: f32
 }
 
 /// Share of the light that enters on the far side which comes through: the mean transmittance around the point, where
-/// that `is_wanted`.
+/// that `is_wanted`. The material's lengths are `length_scale` times as long.
 fn transmitted_share(
     is_wanted: bool,
     light: Light,
@@ -36,6 +55,7 @@ fn transmitted_share(
     profiles: ChannelProfiles,
     surface_albedo: vec3f,
     slab_albedo: vec3f,
+    length_scale: f32,
 ) -> vec3f {
     let facing_away = max(-dot(normal, towards), 0.0);
     // A texel's neighbours, and half the disc: a rim as round as that stays outside.
@@ -71,7 +91,7 @@ fn transmitted_share(
         let way = max(way_mm, 0.0) / light.millimetres_per_world_unit;
         let nearer = from_lamp / max(from_lamp - way, max(light.source, light.least_distance));
         let counts = seen_here * select(1.0, nearer * nearer, is_lamp);
-        through += counts * slab_transmittance(slab_albedo, surface.slab_mean_free_path_mm, found_mm);
+        through += counts * slab_transmittance(slab_albedo, surface.slab_mean_free_path_mm * length_scale, found_mm);
         thickness_mm += seen_here * found_mm;
         seen += seen_here;
     }
@@ -80,7 +100,7 @@ fn transmitted_share(
         return through;
     }
     // The profile's integral is dear: once, at the mean.
-    let mean_mm = thickness_mm / max(seen, 1.0);
+    let mean_mm = thickness_mm / max(seen, 1.0) / length_scale;
     let of_profile = profile_transmittance(profiles, surface_albedo, mean_mm) * (seen / f32(THICKNESS_TAPS));
     return select(of_profile, through, surface.slab_mean_free_path_mm.r > 0.0);
 }

@@ -1,4 +1,4 @@
-// uses: gather/input, kernel/constants, lib/{albedo_mix, angle, medium_angles, noise, numeric_limits, object_transform, slab}, light/{coupling, diffuse_lobe, environment, light, normal_map, shadow, specular_surface, transmission}, the material set
+// uses: gather/{input, mean_free_path_scale}, kernel/constants, lib/{albedo_mix, angle, medium_angles, noise, numeric_limits, object_transform, slab}, light/{coupling, diffuse_lobe, environment, light, normal_map, shadow, specular_surface, transmission}, the material set
 
 /// Camera and light from everywhere of one frame.
 struct GBufferFrame {
@@ -36,6 +36,10 @@ struct GBufferObject {
     roughness_factor: f32,
     /// Factor on the specular strength texture.
     specular_strength_factor: f32,
+    /// Factor on the mean free path, and on its texture.
+    mean_free_path_scale: f32,
+    /// Thickness where its texture is 1, mm; 0 where the object does not say how thick it is.
+    thickness_mm: f32,
 }
 
 /// Surface albedo below which light that came through leaves in part where it arrives.
@@ -44,8 +48,8 @@ const LEAST_DIFFUSING_ALBEDO: f32 = 0.02;
 /// Whether there is light from all around; the pipeline says it.
 override HAS_ENVIRONMENT: bool = false;
 
-/// Whether the object has a texture of its roughness or of its specular strength; the pipeline says it.
-override HAS_SPECULAR_TEXTURES: bool = false;
+/// Whether the object says more of its surface than its colour and its normals; the pipeline says it.
+override HAS_DETAILS: bool = false;
 
 @group(2) @binding(0) var<uniform> frame: GBufferFrame;
 @group(2) @binding(1) var shadow_maps: texture_depth_2d_array;
@@ -63,6 +67,10 @@ override HAS_SPECULAR_TEXTURES: bool = false;
 @group(3) @binding(4) var roughness_texture: texture_2d<f32>;
 /// Alpha.
 @group(3) @binding(5) var specular_strength_texture: texture_2d<f32>;
+/// Red: factor on the mean free path.
+@group(3) @binding(6) var object_scale_texture: texture_2d<f32>;
+/// Green.
+@group(3) @binding(7) var thickness_texture: texture_2d<f32>;
 
 /// One vertex of a mesh, in the object's space.
 struct GBufferVertex {
@@ -78,7 +86,7 @@ struct GBufferInterpolated {
     @location(2) texture_coordinate: vec2f,
 }
 
-/// The three colour targets.
+/// The colour targets; the last one where the pass has it.
 struct GBufferTargets {
     /// Diffuse irradiance; alpha is what it is multiplied by where it leaves towards the camera, about 1.
     @location(0) irradiance: vec4f,
@@ -86,6 +94,8 @@ struct GBufferTargets {
     @location(1) unscattered: vec4f,
     /// Surface albedo and the material number.
     @location(2) surface: vec4f,
+    /// Factor on the mean free path.
+    @location(3) mean_free_path_scale: f32,
 }
 
 @vertex
@@ -126,12 +136,18 @@ fn gbuffer_fragment(interpolated: GBufferInterpolated, @builtin(front_facing) fr
     let surface_albedo = clamp(mix(row.surface.surface_albedo, textured, override_albedo), vec3f(0.0), vec3f(1.0));
     var reflectance = select(object.opaque_reflectance_at_normal, row.surface.reflectance_at_normal, translucent);
     var roughness = select(object.opaque_roughness, row.surface.roughness, translucent);
-    if HAS_SPECULAR_TEXTURES {
+    var mean_free_path_scale = 1.0;
+    // Of a solid, for light that no map sees through it.
+    var thickness_mm = 0.0;
+    if HAS_DETAILS {
         let place = interpolated.texture_coordinate;
         let rough = textureSample(roughness_texture, surface_sampler, place).g * object.roughness_factor;
         roughness = select(roughness, clamp(rough, 0.0, 1.0), object.roughness_factor >= 0.0);
         let strength = textureSample(specular_strength_texture, surface_sampler, place).a;
         reflectance = min(reflectance * strength * object.specular_strength_factor, 1.0);
+        let scale = textureSample(object_scale_texture, surface_sampler, place).r * object.mean_free_path_scale;
+        mean_free_path_scale = clamp(scale, SMALLEST_MEAN_FREE_PATH_SCALE, LARGEST_MEAN_FREE_PATH_SCALE);
+        thickness_mm = textureSample(thickness_texture, surface_sampler, place).g * object.thickness_mm;
     }
     roughness = roughness_of_normals(roughness, normal_texel.xyz, object.normal_scale);
     let profiles = material_profiles(row, surface_albedo);
@@ -155,10 +171,25 @@ fn gbuffer_fragment(interpolated: GBufferInterpolated, @builtin(front_facing) fr
     let view_albedo = surface_specular_albedo(specular, view_cosine);
     let ambient_share = entering_ambient_share(specular);
     let leaving = leaving_share(specular, view_albedo, ambient_share);
-    let sheet_length = row.surface.slab_mean_free_path_mm;
+    let slab_length = row.surface.slab_mean_free_path_mm * mean_free_path_scale;
+    let is_measured = HAS_DETAILS && object.thickness_mm > 0.0;
+    let sheet_mm = select(row.surface.thin_thickness_mm, thickness_mm, is_measured);
+    // What comes through without a map: through a sheet, and through a solid that says how thick it is.
     var sheet = vec3f(0.0);
     if THIN_SHEETS {
-        sheet = slab_transmittance(slab_albedo, sheet_length, row.surface.thin_thickness_mm);
+        sheet = slab_transmittance(slab_albedo, slab_length, sheet_mm);
+    }
+    var solid = vec3f(0.0);
+    if HAS_DETAILS {
+        let by_law = material_transmittance(
+            row.surface,
+            profiles,
+            surface_albedo,
+            slab_albedo,
+            mean_free_path_scale,
+            thickness_mm,
+        );
+        solid = select(vec3f(0.0), by_law, is_measured && translucent && !is_thin);
     }
 
     // A sheet sends back from where light entered.
@@ -195,7 +226,7 @@ fn gbuffer_fragment(interpolated: GBufferInterpolated, @builtin(front_facing) fr
         unscattered = reflected * (view_albedo - second) + mirrored_by_second * second;
     }
     // Irradiance from behind, times what comes through.
-    var through = select(vec3f(0.0), around_behind * ambient_share * sheet, is_thin);
+    var through = around_behind * ambient_share * select(solid * medium_ambient_through(medium), sheet, is_thin);
     let noise = interleaved_gradient_noise(vec2i(interpolated.clip_position.xy), 0u);
     for (var i = 0u; i < frame.light_count; i += 1u) {
         let light = lights[i];
@@ -225,9 +256,9 @@ fn gbuffer_fragment(interpolated: GBufferInterpolated, @builtin(front_facing) fr
         irradiance += entered;
         unscattered += arriving * surface_reflection(specular, normal, arrival.towards, towards_camera);
         let behind = arrival.irradiance * (facing_away * entering);
-        let is_measured = !is_thin && transmission > 0.0 && is_behind && light.layer != NO_SHADOW_MAP;
+        let is_mapped = !is_thin && transmission > 0.0 && is_behind && light.layer != NO_SHADOW_MAP;
         let share = transmitted_share(
-            is_measured,
+            is_mapped,
             light,
             arrival.towards,
             position,
@@ -236,8 +267,11 @@ fn gbuffer_fragment(interpolated: GBufferInterpolated, @builtin(front_facing) fr
             profiles,
             surface_albedo,
             slab_albedo,
+            mean_free_path_scale,
         );
-        through += behind * select(share * medium_through(medium, angles), visibility * sheet, is_thin);
+        // Without a map the object's own thickness stands for the light's way.
+        let of_solid = select(share, solid, light.layer == NO_SHADOW_MAP);
+        through += behind * select(of_solid * medium_through(medium, angles), visibility * sheet, is_thin);
     }
     if ALBEDO_MIXES {
         irradiance *= albedo_before(surface_albedo, albedo_mix);
@@ -261,9 +295,10 @@ fn gbuffer_fragment(interpolated: GBufferInterpolated, @builtin(front_facing) fr
     targets.irradiance = vec4f(min(irradiance, vec3f(LARGEST_HALF)), leaving * medium.exit_share);
     targets.unscattered = vec4f(min(unscattered, vec3f(LARGEST_HALF)), pack_exit(medium));
     targets.surface = vec4f(surface_albedo, select(-1.0, f32(object.material), translucent));
+    targets.mean_free_path_scale = mean_free_path_scale;
     if THIN_SHEETS && is_thin {
         // A sheet sends back what a slab does, from where it entered.
-        let sent_back = slab_reflectance(slab_albedo, sheet_length, row.surface.thin_thickness_mm);
+        let sent_back = slab_reflectance(slab_albedo, slab_length, sheet_mm);
         targets.surface = vec4f(sent_back, -1.0);
     }
     return targets;

@@ -87,7 +87,11 @@ pub fn run(arguments: &ContactSheetArguments) -> Result<(), Failure> {
     let files = with_variants(&original.files_read, &shown, arguments)?;
     let materials = arguments.kernel.compile(&Compiler::from_memory(files))?;
     // Without an adapter, there is no point in sculpting.
-    let mut studio = Studio::open(&materials, arguments.kernel.route.chosen())?;
+    let mut studio = Studio::open(
+        &materials,
+        arguments.kernel.route.chosen(),
+        arguments.mesh.details.scales_mean_free_path(),
+    )?;
     say!("{}", studio.description());
     let scene = load_scene(&arguments.mesh)?;
     let camera = Camera::framing(&scene, arguments.size.aspect(), DEFAULT_FOV_Y_DEGREES);

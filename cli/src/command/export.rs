@@ -68,6 +68,9 @@ pub enum BoundaryKind {
     Auto,
     /// Nothing: no highlights, and no refraction.
     Matched,
+    /// A smooth dielectric, of the index that the material's reflectance at normal incidence says: light that is scattered
+    /// comes out nearly as through a rough one, and a path tracer of single scattering loses none of it.
+    Smooth,
     /// A rough dielectric with the material's roughness, and the index that its reflectance at normal incidence says.
     Rough,
 }
@@ -78,6 +81,9 @@ enum Difference {
     NoHighlights,
     Black,
     MeanAlbedo { object: String },
+    MeanScale { object: String },
+    AlbedoMix { material: String },
+    SmoothHighlights,
     NormalMap { object: String },
     Thin { material: String },
     GuessedEntry { material: String },
@@ -100,6 +106,15 @@ impl fmt::Display for Difference {
             }
             Self::MeanAlbedo { object } => {
                 write!(f, "`{object}` has a texture of its surface albedo: its mean is exported")
+            }
+            Self::MeanScale { object } => {
+                write!(f, "`{object}` has a texture of its mean free path: its mean is exported")
+            }
+            Self::AlbedoMix { material } => {
+                write!(f, "`{material}` has a `surface_albedo_mix`, which a medium cannot have")
+            }
+            Self::SmoothHighlights => {
+                write!(f, "the exported boundary is smooth: its highlights are mirrored")
             }
             Self::NormalMap { object } => write!(f, "the normal map of `{object}` is not exported"),
             Self::Thin { material } => {
@@ -134,7 +149,13 @@ impl Explain for Difference {
                 Self::Black => {
                     "use --boundary matched, or give the lights a size: --light dx,dy,dz,intensity,degrees"
                 }
-                Self::MeanAlbedo { .. } | Self::NormalMap { .. } => {
+                Self::AlbedoMix { .. } => {
+                    "compare with a picture of one colour, where the mix changes nothing"
+                }
+                Self::SmoothHighlights => {
+                    "compare in light from everywhere, whose mirror image is as even as a rough one's"
+                }
+                Self::MeanAlbedo { .. } | Self::MeanScale { .. } | Self::NormalMap { .. } => {
                     "compare with a picture of the same mesh without it"
                 }
                 Self::SecondLobe { .. } => "compare with a picture of a material without it",
@@ -231,20 +252,28 @@ fn medium(
     if object.surface.base_colour.is_some() {
         differences.push(Difference::MeanAlbedo { object: object.name.clone() });
     }
-    let own = Boundary::of(material);
-    let is_rough = match boundary {
-        BoundaryKind::Auto => !lights.iter().any(is_point),
-        BoundaryKind::Matched => false,
-        BoundaryKind::Rough => true,
-    };
-    match (is_rough, own) {
-        (_, Boundary::Matched) => (),
-        (false, _) => differences.push(Difference::NoHighlights),
-        (true, _) if lights.iter().any(is_point) => differences.push(Difference::Black),
-        (true, _) => (),
+    if object.surface.mean_free_path_scale.is_some() {
+        differences.push(Difference::MeanScale { object: object.name.clone() });
     }
-    let boundary = if is_rough { own } else { Boundary::Matched };
-    (Medium::of(material, surface_albedo(&object.surface, material), boundary), boundary)
+    if material.surface_albedo_mix > 0.0 && object.surface.base_colour.is_some() {
+        differences.push(Difference::AlbedoMix { material: name() });
+    }
+    let own = Boundary::of(material);
+    let has_points = lights.iter().any(is_point);
+    let boundary = match boundary {
+        BoundaryKind::Matched => Boundary::Matched,
+        BoundaryKind::Auto if has_points => Boundary::Matched,
+        BoundaryKind::Smooth => own.smooth(),
+        BoundaryKind::Auto | BoundaryKind::Rough => own,
+    };
+    match boundary {
+        Boundary::Matched if own != Boundary::Matched => differences.push(Difference::NoHighlights),
+        Boundary::Smooth { .. } | Boundary::Rough { .. } if has_points => differences.push(Difference::Black),
+        Boundary::Smooth { .. } => differences.push(Difference::SmoothHighlights),
+        Boundary::Matched | Boundary::Rough { .. } => (),
+    }
+    let albedo = surface_albedo(&object.surface, material);
+    (Medium::of(material, albedo, mean_free_path_scale(&object.surface), boundary), boundary)
 }
 
 /// One channel of an environment as grey, with its intensity, and light from everywhere alike: a scene of Mitsuba's has
@@ -262,6 +291,13 @@ fn is_point(light: &Light) -> bool {
         Light::Point(lamp) => lamp.radius_mm == 0.0,
         Light::Spot(_) => true,
     }
+}
+
+/// The factor on the mean free path that a picture has in the mean.
+fn mean_free_path_scale(surface: &Surface) -> f64 {
+    let mean = surface.mean_free_path_scale.as_ref().map_or(1.0, |image| image.mean_linear_code(0));
+    // As the shaders keep it.
+    (mean * f64::from(surface.mean_free_path_scale_factor)).clamp(1e-3, 1e3)
 }
 
 /// The surface albedo that a picture has in the mean.

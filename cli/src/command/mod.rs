@@ -14,6 +14,7 @@ pub mod check;
 #[cfg(feature = "analysis")]
 pub mod compare;
 pub mod contact_sheet;
+pub mod details;
 pub mod diffuse;
 pub mod export;
 pub mod kernel;

@@ -26,6 +26,11 @@ pub(super) fn exposure(text: &str) -> Result<f32, String> {
     within(text, "above 0, and at most 1e6", |value| value > 0.0 && value <= 1e6).map(|value| value as f32)
 }
 
+/// A factor on the mean free path, or a thickness in mm.
+pub(super) fn detail(text: &str) -> Result<f32, String> {
+    within(text, "between 0.001 and 1000", |value| (1e-3..=1e3).contains(&value)).map(|value| value as f32)
+}
+
 /// A power of the surface albedo.
 pub(super) fn albedo_mix(text: &str) -> Result<f32, String> {
     within(text, "between 0 and 1", |value| (0.0..=1.0).contains(&value)).map(|value| value as f32)

@@ -118,7 +118,11 @@ pub fn run(arguments: &RenderArguments) -> Result<(), Failure> {
     let compiler = if arguments.debug.is_some() { compiler.with_debug_views() } else { compiler };
     let materials = arguments.kernel.compile(&compiler)?;
     let material = material_set::number(&materials, &arguments.material)?;
-    let mut studio = Studio::open(&materials, arguments.kernel.route.chosen())?;
+    let mut studio = Studio::open(
+        &materials,
+        arguments.kernel.route.chosen(),
+        arguments.mesh.details.scales_mean_free_path(),
+    )?;
     let scene = load_scene(&arguments.mesh)?;
     let environment = arguments.view.environment()?;
     let lights = arguments.view.lights();

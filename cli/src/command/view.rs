@@ -1,5 +1,6 @@
 //! Scenes and views as several commands take them.
 
+use super::details::DetailArguments;
 use super::lights::LightArguments;
 use super::number;
 use crate::failure::{Failure, warning};
@@ -35,6 +36,9 @@ pub struct MeshArguments {
         default_missing_value = "always"
     )]
     pub flip_v: FlipV,
+    /// What its surfaces have beside colours and normals.
+    #[command(flatten)]
+    pub details: DetailArguments,
 }
 
 /// Scenes that need no file.
@@ -84,7 +88,9 @@ pub enum FlipV {
 pub(super) fn load_scene(arguments: &MeshArguments) -> Result<Scene, Failure> {
     let Some(path) = &arguments.mesh else {
         let _spinner = Spinner::new("sculpting the scene");
-        return Ok(arguments.scene.scene());
+        let mut scene = arguments.scene.scene();
+        arguments.details.apply(&mut scene)?;
+        return Ok(scene);
     };
     let spinner = Spinner::new(format!("reading {}", path.display()));
     let loaded = gltf::load(path, |what| spinner.say(format!("reading {}: {what}", path.display())));
@@ -102,6 +108,7 @@ pub(super) fn load_scene(arguments: &MeshArguments) -> Result<Scene, Failure> {
         FlipV::Always => loaded.scene.flip_texture_v(),
         FlipV::Never => (),
     }
+    arguments.details.apply(&mut loaded.scene)?;
     Ok(loaded.scene)
 }
 

@@ -18,10 +18,7 @@ use crate::picture::{DisplayPicture, LinearPicture};
 use crate::scene::camera::{Camera, Size};
 use crate::scene::environment::Environment;
 use crate::scene::light::Light;
-use crate::scene::{Image, Scene};
-
-/// glTF and the bust are in metres.
-const MILLIMETRES_PER_WORLD_UNIT: f32 = 1000.0;
+use crate::scene::{Image, MILLIMETRES_PER_METRE, Scene};
 
 /// Format of the picture for the screen: its bytes are sRGB code values.
 const DISPLAY_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
@@ -115,16 +112,23 @@ pub struct Studio {
 }
 
 impl Studio {
-    /// Opens a device and makes the pipelines; `route` is the subsurface pass's.
-    pub fn open(materials: &Compilation, route: Route) -> Result<Self, Failure> {
+    /// Opens a device and makes the pipelines; `route` is the subsurface pass's. Objects may scale the mean free path where
+    /// `scales_mean_free_path`.
+    pub fn open(materials: &Compilation, route: Route, scales_mean_free_path: bool) -> Result<Self, Failure> {
         let device = Device::open()?;
         let timer = PassTimer::new(&device.device, &device.queue, &Renderer::PASSES).ok();
         let (renderer, linear) = device.checked(|| {
             let kernel = load(&device, &materials.parts)?;
             let timer = timer.as_ref();
             let Route { path, shape } = route;
-            let descriptor =
-                RendererDescriptor { format: DISPLAY_FORMAT, path, shape, timer, ..Default::default() };
+            let descriptor = RendererDescriptor {
+                format: DISPLAY_FORMAT,
+                mean_free_path_scale: scales_mean_free_path,
+                path,
+                shape,
+                timer,
+                ..Default::default()
+            };
             let renderer = Renderer::new(&device.device, &kernel, &descriptor)
                 .map_err(|error| Failure::new(error.to_string(), "choose another --path, or none"))?;
             route.check(&renderer.subsurface)?;
@@ -262,7 +266,7 @@ fn prepare(
         environment_turn_radians: frame.environment.map_or(0.0, |environment| environment.turn_radians),
         transmission: if frame.shown == Shown::Surface { 0.0 } else { 1.0 },
         taps: if frame.shown == Shown::Surface { Some(0) } else { None },
-        ..runtime::Frame::new(camera, bounds, MILLIMETRES_PER_WORLD_UNIT)
+        ..runtime::Frame::new(camera, bounds, MILLIMETRES_PER_METRE)
     };
     renderer.prepare(&device.queue, &frame).map_err(out_of_order)?;
     Ok(frame.subsurface_view(size))
@@ -332,6 +336,10 @@ fn objects(device: &Device, frame: &Frame<'_>) -> Result<Vec<Object>, Failure> {
             roughness_factor: surface.roughness_factor,
             specular_strength: surface.specular_strength.as_ref().map(pixels),
             specular_strength_factor: surface.specular_strength_factor,
+            mean_free_path_scale: surface.mean_free_path_scale.as_ref().map(pixels),
+            mean_free_path_scale_factor: surface.mean_free_path_scale_factor,
+            thickness: surface.thickness.as_ref().map(pixels),
+            thickness_mm: surface.thickness_mm,
             ..Default::default()
         };
         let made = Object::new(&device.device, &device.queue, geometry, &descriptor);

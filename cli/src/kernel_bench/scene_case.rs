@@ -39,7 +39,7 @@ impl SceneCases<'_> {
         subject: &Subject,
         footprint_pixels: f64,
     ) -> Result<Case, Failure> {
-        let mut studio = Studio::open(materials, Route::default())?;
+        let mut studio = Studio::open(materials, Route::default(), false)?;
         let height = f64::from(self.size.height);
         let framing = Camera::framing(self.scene, self.size.aspect(), DEFAULT_FOV_Y_DEGREES);
         let offset = Vec3::from(framing.position) - Vec3::from(framing.target);

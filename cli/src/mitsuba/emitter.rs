@@ -1,6 +1,6 @@
 //! Lights as Mitsuba 3 has them.
 
-use super::MILLIMETRES_PER_METRE;
+use crate::scene::MILLIMETRES_PER_METRE;
 use crate::scene::light::{DirectionalLight, Light, PointLight};
 use glam::Vec3;
 use std::f64::consts::PI;

@@ -8,6 +8,11 @@ use subsurface_profile::single_scattering_albedo;
 pub enum Boundary {
     /// Nothing: both have one index.
     Matched,
+    /// A smooth dielectric.
+    Smooth {
+        /// Refractive index of the medium, > 1.
+        refractive_index: f64,
+    },
     /// A rough dielectric.
     Rough {
         /// Refractive index of the medium, > 1.
@@ -26,6 +31,14 @@ impl Boundary {
         }
         Self::Rough { refractive_index, alpha: material.roughness.powi(2).max(1e-3) }
     }
+
+    /// The same without its roughness.
+    pub fn smooth(self) -> Self {
+        match self {
+            Self::Rough { refractive_index, .. } => Self::Smooth { refractive_index },
+            Self::Matched | Self::Smooth { .. } => self,
+        }
+    }
 }
 
 /// A homogeneous medium that scatters isotropically.
@@ -39,15 +52,17 @@ pub struct Medium {
 
 impl Medium {
     /// The medium whose half-space has a surface albedo of `surface_albedo` below this boundary, under the light that the
-    /// material's profile is for.
-    pub fn of(material: &Material, surface_albedo: [f64; 3], boundary: Boundary) -> Self {
+    /// material's profile is for; its mean free path is `scale` times the material's.
+    pub fn of(material: &Material, surface_albedo: [f64; 3], scale: f64, boundary: Boundary) -> Self {
         let entry = material.entry();
         let refractive_index = match boundary {
             Boundary::Matched => 1.0,
-            Boundary::Rough { refractive_index, .. } => refractive_index,
+            Boundary::Smooth { refractive_index } | Boundary::Rough { refractive_index, .. } => {
+                refractive_index
+            }
         };
         Self {
-            mean_free_path_mm: material.slab_mean_free_path_mm(),
+            mean_free_path_mm: material.slab_mean_free_path_mm().map(|length| scale * length),
             single_scattering_albedo: surface_albedo.map(|albedo| {
                 single_scattering_albedo::from_surface_albedo_below(entry, refractive_index, albedo)
             }),

@@ -13,6 +13,3 @@ pub use closed::{Flaw, flaws};
 pub use medium::{Boundary, Medium};
 pub use ply::ply;
 pub use scene::{CHANNELS, Exported, xml};
-
-/// Millimetres, in which the files are, per metre, in which scenes are.
-const MILLIMETRES_PER_METRE: f32 = 1000.0;

@@ -1,6 +1,6 @@
 //! Meshes as PLY.
 
-use super::MILLIMETRES_PER_METRE;
+use crate::scene::MILLIMETRES_PER_METRE;
 use crate::scene::Mesh;
 
 /// The mesh as binary PLY: positions in mm, normals, triangles.

@@ -1,7 +1,8 @@
 //! The scene file of one channel.
 
 use super::emitter;
-use super::{Boundary, MILLIMETRES_PER_METRE, Medium};
+use super::{Boundary, Medium};
+use crate::scene::MILLIMETRES_PER_METRE;
 use crate::scene::camera::{Camera, Size};
 use crate::scene::light::Light;
 use glam::Vec3;
@@ -114,6 +115,15 @@ fn shape(text: &mut String, channel: usize, object: &Exported) {
         Some((medium, boundary)) => {
             match boundary {
                 Boundary::Matched => text.push_str("        <bsdf type=\"null\"/>\n"),
+                Boundary::Smooth { refractive_index } => {
+                    let _ = write!(
+                        text,
+                        "        <bsdf type=\"dielectric\">\n\
+                         \x20           <float name=\"int_ior\" value=\"{refractive_index}\"/>\n\
+                         \x20           <float name=\"ext_ior\" value=\"1\"/>\n\
+                         \x20       </bsdf>\n"
+                    );
+                }
                 Boundary::Rough { refractive_index, alpha } => {
                     let _ = write!(
                         text,

@@ -108,7 +108,7 @@ impl Bench {
                 let compiler = estimator.map_or(compiler.clone(), |estimator| compiler.estimator(estimator));
                 let compiled = compiler.compile();
                 let compiled = compiled.map_err(|report| Failure::reported(report.render(false)))?;
-                let studio = Studio::open(&compiled, Route::default())?;
+                let studio = Studio::open(&compiled, Route::default(), false)?;
                 self.studios.push((estimator, studio, compiled));
                 self.studios.len() - 1
             }

@@ -12,6 +12,9 @@ mod texture_seam;
 
 use crate::picture::linear_from_srgb;
 
+/// Scenes are in metres, materials in millimetres.
+pub const MILLIMETRES_PER_METRE: f32 = 1000.0;
+
 /// Everything to draw.
 #[derive(Clone, Debug, Default)]
 pub struct Scene {
@@ -133,6 +136,14 @@ pub struct Surface {
     pub specular_strength: Option<Image>,
     /// Factor on it, with an image or without.
     pub specular_strength_factor: f32,
+    /// Factor on the mean free path in the red channel, linear.
+    pub mean_free_path_scale: Option<Image>,
+    /// Factor on it, or on the mean free path without an image.
+    pub mean_free_path_scale_factor: f32,
+    /// Thickness in the green channel, linear, in parts of the next.
+    pub thickness: Option<Image>,
+    /// Thickness (mm) where the image is 1, or everywhere without one; 0 where the surface says none.
+    pub thickness_mm: f32,
     /// Name of the material in the file.
     pub material_name: Option<String>,
     /// Sends nothing back and lets nothing through: it only casts shadows.
@@ -150,6 +161,10 @@ impl Default for Surface {
             roughness_factor: 1.0,
             specular_strength: None,
             specular_strength_factor: 1.0,
+            mean_free_path_scale: None,
+            mean_free_path_scale_factor: 1.0,
+            thickness: None,
+            thickness_mm: 0.0,
             material_name: None,
             is_black: false,
         }
@@ -181,6 +196,15 @@ impl Image {
             let light = |(code, count): (usize, u64)| f64::from(linear_from_srgb(code as u8)) * count as f64;
             counts.into_iter().enumerate().map(light).sum::<f64>() / texels
         })
+    }
+}
+
+impl Image {
+    /// Mean of a channel, in [0, 1], of an image whose numbers are linear.
+    pub fn mean_linear_code(&self, channel: usize) -> f64 {
+        let texels = self.rgba.chunks_exact(4);
+        let count = texels.len().max(1) as f64;
+        texels.map(|texel| f64::from(texel[channel]) / 255.0).sum::<f64>() / count
     }
 }
 

@@ -29,6 +29,9 @@ const NAME: &str = "GBufferPass";
 pub struct GBufferDescriptor<'a> {
     /// What the labels of its objects begin with; `None`, the default, for `GBufferPass`.
     pub label: Option<&'a str>,
+    /// Whether objects may scale the mean free path: the pass then writes one target more,
+    /// [`GBuffer::with_mean_free_path_scale`]. By default not.
+    pub mean_free_path_scale: bool,
     /// Where compiled pipelines are kept; by default nowhere.
     pub pipeline_cache: Option<&'a wgpu::PipelineCache>,
     /// Where the pass writes its times; by default nowhere.
@@ -99,6 +102,8 @@ impl<'a> GBufferView<'a> {
 #[derive(Debug)]
 pub struct GBufferPass {
     label: Label,
+    /// Whether it writes scales of the mean free path.
+    writes_scales: bool,
     pipeline_cache: Option<wgpu::PipelineCache>,
     timestamps: Option<Timestamps>,
     kernel: LoadedKernel,
@@ -157,7 +162,9 @@ impl GBufferPass {
         descriptor: &GBufferDescriptor<'_>,
     ) -> Result<Self, PassError> {
         let label = Label::new(descriptor.label, NAME);
-        let pipelines = Pipelines::new(device, kernel, &label, descriptor.pipeline_cache, false)?;
+        let writes_scales = descriptor.mean_free_path_scale;
+        let shape = Shape { writes_scales, has_environment: false };
+        let pipelines = Pipelines::new(device, kernel, &label, descriptor.pipeline_cache, shape)?;
         let layout = GbufferBindGroup2::layout(device, &label.of("frame layout"));
         let uniform = uniform_buffer::<GBufferFrame>(device, &label.of("frame"));
         let comparison = device.create_sampler(&wgpu::SamplerDescriptor {
@@ -171,6 +178,7 @@ impl GBufferPass {
         let darkness = Environment::darkness(device);
         Ok(Self {
             label,
+            writes_scales,
             pipeline_cache: descriptor.pipeline_cache.cloned(),
             timestamps: descriptor.timestamps.clone(),
             kernel: kernel.clone(),
@@ -195,7 +203,7 @@ impl GBufferPass {
     /// As of [`new`](Self::new); the old kernel stays.
     pub fn set_kernel(&mut self, device: &wgpu::Device, kernel: &LoadedKernel) -> Result<(), PassError> {
         let cache = self.pipeline_cache.as_ref();
-        self.pipelines = Pipelines::new(device, kernel, &self.label, cache, self.environment.is_some())?;
+        self.pipelines = Pipelines::new(device, kernel, &self.label, cache, self.shape())?;
         self.kernel = kernel.clone();
         Ok(())
     }
@@ -221,16 +229,20 @@ impl GBufferPass {
     /// # Errors
     /// As of [`new`](Self::new).
     pub fn set_environment(&mut self, environment: Option<Environment>) -> Result<(), PassError> {
-        if environment.is_some() != self.environment.is_some() {
+        let shape = Shape { has_environment: environment.is_some(), ..self.shape() };
+        if shape != self.shape() {
             let cache = self.pipeline_cache.as_ref();
-            self.pipelines =
-                Pipelines::new(&self.device, &self.kernel, &self.label, cache, environment.is_some())?;
+            self.pipelines = Pipelines::new(&self.device, &self.kernel, &self.label, cache, shape)?;
         }
         self.environment = environment;
         if let Some(bound) = self.bound.take() {
             self.bind_group(bound.shadow_maps);
         }
         Ok(())
+    }
+
+    fn shape(&self) -> Shape {
+        Shape { writes_scales: self.writes_scales, has_environment: self.environment.is_some() }
     }
 
     fn bind_group(&mut self, shadow_maps: wgpu::TextureView) {
@@ -310,15 +322,25 @@ impl GBufferPass {
         let Some(bound) = &self.bound else { return Err(FrameError::NotBound { pass: NAME }) };
         let (format, usage) = (GBuffer::COLOUR_FORMAT, wgpu::TextureUsages::RENDER_ATTACHMENT);
         Output { pass: NAME, size: self.size, format, usage }.check(&targets.irradiance.view)?;
+        if !self.writes_scales && objects.iter().any(Object::scales_mean_free_path) {
+            return Err(FrameError::NoMeanFreePathScale { pass: NAME });
+        }
+        let scale = match &targets.mean_free_path_scale {
+            Some(scale) if self.writes_scales => Some(scale),
+            None if self.writes_scales => return Err(FrameError::NoScaleTarget { pass: NAME }),
+            _ => None,
+        };
+        let attachments = [
+            cleared(&targets.irradiance.view, wgpu::Color::TRANSPARENT),
+            cleared(&targets.unscattered.view, wgpu::Color::TRANSPARENT),
+            // −1: no material.
+            cleared(&targets.surface.view, wgpu::Color { a: -1.0, ..wgpu::Color::TRANSPARENT }),
+            scale.and_then(|scale| cleared(&scale.view, wgpu::Color::WHITE)),
+        ];
         let timestamps = self.timestamps.as_ref();
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some(self.label.as_str()),
-            color_attachments: &[
-                cleared(&targets.irradiance.view, wgpu::Color::TRANSPARENT),
-                cleared(&targets.unscattered.view, wgpu::Color::TRANSPARENT),
-                // −1: no material.
-                cleared(&targets.surface.view, wgpu::Color { a: -1.0, ..wgpu::Color::TRANSPARENT }),
-            ],
+            color_attachments: &attachments[..if scale.is_some() { 4 } else { 3 }],
             depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
                 view: &targets.depth_stencil.view,
                 depth_ops: Some(wgpu::Operations {
@@ -338,10 +360,10 @@ impl GBufferPass {
         pass.set_bind_group(GbufferBindGroup2::INDEX, &bound.bind_group, &[]);
         let mut current = None;
         for object in objects {
-            let has_textures = object.has_specular_textures();
-            if current != Some(has_textures) {
-                pass.set_pipeline(self.pipelines.of(has_textures));
-                current = Some(has_textures);
+            let has_details = object.has_details();
+            if current != Some(has_details) {
+                pass.set_pipeline(self.pipelines.of(has_details));
+                current = Some(has_details);
             }
             pass.set_stencil_reference(if object.is_translucent() { TRANSLUCENT_STENCIL } else { 0 });
             pass.set_bind_group(BindGroup3::INDEX, &object.surface_group, &[]);
@@ -351,11 +373,18 @@ impl GBufferPass {
     }
 }
 
-/// The pass for objects without and with textures of their specular reflection: what most have not costs them nothing.
+/// What pipelines are made for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Shape {
+    writes_scales: bool,
+    has_environment: bool,
+}
+
+/// The pass for objects without and with details of their surface: what most have not costs them nothing.
 #[derive(Debug)]
 struct Pipelines {
     plain: wgpu::RenderPipeline,
-    textured: wgpu::RenderPipeline,
+    detailed: wgpu::RenderPipeline,
 }
 
 impl Pipelines {
@@ -364,14 +393,14 @@ impl Pipelines {
         kernel: &LoadedKernel,
         label: &Label,
         cache: Option<&wgpu::PipelineCache>,
-        has_environment: bool,
+        shape: Shape,
     ) -> Result<Self, PassError> {
-        let of = |has_textures| pipeline(device, kernel, label, cache, has_environment, has_textures);
-        Ok(Self { plain: of(false)?, textured: of(true)? })
+        let of = |has_details| pipeline(device, kernel, label, cache, shape, has_details);
+        Ok(Self { plain: of(false)?, detailed: of(true)? })
     }
 
-    fn of(&self, has_textures: bool) -> &wgpu::RenderPipeline {
-        if has_textures { &self.textured } else { &self.plain }
+    fn of(&self, has_details: bool) -> &wgpu::RenderPipeline {
+        if has_details { &self.detailed } else { &self.plain }
     }
 }
 
@@ -380,8 +409,8 @@ fn pipeline(
     kernel: &LoadedKernel,
     label: &Label,
     cache: Option<&wgpu::PipelineCache>,
-    has_environment: bool,
-    has_specular_textures: bool,
+    shape: Shape,
+    has_details: bool,
 ) -> Result<wgpu::RenderPipeline, PassError> {
     if !kernel.module().has_gbuffer() {
         return Err(PassError::NoGBuffer);
@@ -406,6 +435,8 @@ fn pipeline(
         pass_op: wgpu::StencilOperation::Replace,
     };
     let colour = || Some(wgpu::ColorTargetState::from(GBuffer::COLOUR_FORMAT));
+    let scale = Some(wgpu::ColorTargetState::from(GBuffer::SCALE_FORMAT));
+    let targets = [colour(), colour(), colour(), scale];
     let module = kernel.shader_module();
     Ok(device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some(&label.of("pipeline")),
@@ -436,12 +467,12 @@ fn pipeline(
             entry_point: Some(ENTRY_GBUFFER_FRAGMENT),
             compilation_options: wgpu::PipelineCompilationOptions {
                 constants: &[
-                    ("HAS_ENVIRONMENT", f64::from(u8::from(has_environment))),
-                    ("HAS_SPECULAR_TEXTURES", f64::from(u8::from(has_specular_textures))),
+                    ("HAS_ENVIRONMENT", f64::from(u8::from(shape.has_environment))),
+                    ("HAS_DETAILS", f64::from(u8::from(has_details))),
                 ],
                 ..Default::default()
             },
-            targets: &[colour(), colour(), colour()],
+            targets: &targets[..if shape.writes_scales { 4 } else { 3 }],
         }),
         multiview_mask: None,
         cache,

@@ -10,4 +10,5 @@ mod gpu;
 mod lobes;
 mod scene;
 mod textures;
+mod thickness;
 mod transmission;

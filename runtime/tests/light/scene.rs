@@ -112,8 +112,11 @@ impl<'a> Scene<'a> {
     /// The material `skin` of a set of files.
     pub fn of(gpu: &'a Gpu, files: &[(&str, &str)], meshes: &[Mesh]) -> Self {
         let kernel = gpu.load(&compile(files).parts);
-        let descriptor =
-            RendererDescriptor { format: wgpu::TextureFormat::Rgba32Float, ..Default::default() };
+        let descriptor = RendererDescriptor {
+            format: wgpu::TextureFormat::Rgba32Float,
+            mean_free_path_scale: true,
+            ..Default::default()
+        };
         let mut renderer =
             Renderer::new(&gpu.device, &kernel, &descriptor).expect("the kernel has a G-buffer");
         renderer.resize(&gpu.device, SIZE).expect("a small frame");
@@ -122,11 +125,15 @@ impl<'a> Scene<'a> {
         scene
     }
 
-    pub fn object(&self, (vertices, indices): &Mesh) -> Object {
+    pub fn object(&self, mesh: &Mesh) -> Object {
+        self.surfaced(mesh, SurfaceDescriptor::default())
+    }
+
+    /// A mesh of the material, with a surface of a caller's.
+    pub fn surfaced(&self, (vertices, indices): &Mesh, surface: SurfaceDescriptor<'_>) -> Object {
         let geometry = Geometry::new(&self.gpu.device, vertices, indices);
-        let surface =
-            SurfaceDescriptor { material: self.kernel.material_number("skin"), ..Default::default() };
-        Object::new(&self.gpu.device, &self.gpu.queue, geometry, &surface).expect("no textures")
+        let surface = SurfaceDescriptor { material: self.kernel.material_number("skin"), ..surface };
+        Object::new(&self.gpu.device, &self.gpu.queue, geometry, &surface).expect("four bytes each")
     }
 
     /// The middle of the frame, seen from +z: irradiance, and what is not scattered.

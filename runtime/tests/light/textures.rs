@@ -30,10 +30,7 @@ fn a_texture_far_away_is_its_mean() {
 /// What a tilted square shows under a light, with a surface of a caller's.
 fn textured(gpu: &Gpu, material: &str, surface: SurfaceDescriptor<'_>) -> [[f64; 3]; 2] {
     let mut scene = Scene::new(gpu, material, &[]);
-    let (vertices, indices) = tilted(0.7);
-    let geometry = Geometry::new(&gpu.device, &vertices, &indices);
-    let surface = SurfaceDescriptor { material: scene.kernel.material_number("skin"), ..surface };
-    scene.objects = vec![Object::new(&gpu.device, &gpu.queue, geometry, &surface).expect("four bytes each")];
+    scene.objects = vec![scene.surfaced(&tilted(0.7), surface)];
     // The mirror's direction: 2 (n·v) n − v.
     let sine = (1.0 - 0.7 * 0.7_f64).sqrt();
     scene.radiance(Some([1.4 * sine, 0.0, 1.4 * 0.7 - 1.0]))

@@ -12,7 +12,7 @@ mod warning;
 pub use error::{GltfError, Place};
 pub use warning::GltfWarning;
 
-use super::{Image, Object, Scene, Surface};
+use super::{Image, MILLIMETRES_PER_METRE, Object, Scene, Surface};
 use glam::Mat4;
 use source::Sources;
 use std::collections::{HashMap, HashSet};
@@ -98,13 +98,18 @@ impl Loader<'_> {
             if self.triangles > LARGEST_TRIANGLE_COUNT {
                 return Err(GltfError::TooLarge { place, largest: LARGEST_TRIANGLE_COUNT });
             }
-            let surface = self.surface(&primitive.material(), &place)?;
+            let surface = self.surface(&primitive.material(), &place, world_from_node)?;
             self.objects.push(Object { name: place.mesh, mesh: triangles, surface });
         }
         Ok(())
     }
 
-    fn surface(&mut self, material: &gltf::Material<'_>, place: &Place) -> Result<Surface, GltfError> {
+    fn surface(
+        &mut self,
+        material: &gltf::Material<'_>,
+        place: &Place,
+        world_from_node: Mat4,
+    ) -> Result<Surface, GltfError> {
         let colour = material.pbr_metallic_roughness();
         let base_colour = match colour.base_color_texture() {
             Some(info) => Some(self.image(&info.texture(), info.tex_coord(), place)?),
@@ -125,6 +130,16 @@ impl Loader<'_> {
             Some(info) => Some(self.image(&info.texture(), info.tex_coord(), place)?),
             None => None,
         };
+        // Without a thickness a volume is a sheet to glTF, and the material says whether it is one.
+        let volume = material.volume().filter(|volume| volume.thickness_factor() > 0.0);
+        let thickness = match volume.as_ref().and_then(gltf::material::Volume::thickness_texture) {
+            Some(info) => Some(self.image(&info.texture(), info.tex_coord(), place)?),
+            None => None,
+        };
+        // In units of the mesh, which the node scales.
+        let scale = world_from_node.determinant().abs().cbrt();
+        let thickness_mm =
+            volume.map_or(0.0, |volume| volume.thickness_factor() * scale * MILLIMETRES_PER_METRE);
         Ok(Surface {
             base_colour_factor: colour.base_color_factor(),
             base_colour,
@@ -134,8 +149,10 @@ impl Loader<'_> {
             roughness_factor: colour.roughness_factor(),
             specular_strength,
             specular_strength_factor: specular.map_or(1.0, |specular| specular.specular_factor()),
+            thickness,
+            thickness_mm,
             material_name: material.name().map(str::to_owned),
-            is_black: false,
+            ..Surface::default()
         })
     }
 
