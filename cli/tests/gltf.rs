@@ -282,6 +282,52 @@ fn a_volume_is_as_thick_as_its_node_is_large() {
     }
 }
 
+#[test]
+fn what_transmits_is_clear() {
+    let mut file = File::triangle();
+    file.set("/nodes/0/scale", json!([2.0, 2.0, 2.0]));
+    file.primitive()["material"] = json!(0);
+    let transmission = |factor: f64| json!({"transmissionFactor": factor});
+    let volume =
+        json!({"thicknessFactor": 0.01, "attenuationColor": [0.5, 1, 1], "attenuationDistance": 0.003});
+    // A volume: half of the red after 3 mm of the mesh, which are 6 in the world.
+    file.set(
+        "/materials",
+        json!([{
+            "pbrMetallicRoughness": {"roughnessFactor": 0.25},
+            "extensions": {
+                "KHR_materials_transmission": transmission(1.0),
+                "KHR_materials_volume": volume,
+                "KHR_materials_ior": {"ior": 1.33},
+            },
+        }]),
+    );
+    let loaded = file.load().unwrap();
+    assert_eq!(warnings(&loaded), "");
+    let clear = loaded.scene.objects[0].surface.clear.unwrap();
+    assert!((clear.absorption_per_mm[0] - 0.5_f32.recip().ln() / 6.0).abs() < 1e-6, "{clear:?}");
+    assert_eq!(clear.absorption_per_mm[1..], [0.0; 2]);
+    assert_eq!((clear.refractive_index, clear.roughness, clear.shell_thickness_mm), (1.33, 0.25, None));
+    // Without a volume a wall, coloured by its base colour.
+    file.set(
+        "/materials",
+        json!([{
+            "pbrMetallicRoughness": {"baseColorFactor": [1, 0.5, 1, 1]},
+            "extensions": {"KHR_materials_transmission": transmission(0.75)},
+        }]),
+    );
+    let loaded = file.load().unwrap();
+    let clear = loaded.scene.objects[0].surface.clear.unwrap();
+    let through =
+        clear.absorption_per_mm.map(|absorption| (-absorption * clear.shell_thickness_mm.unwrap()).exp());
+    assert!((through[1] - 0.5).abs() < 1e-6 && through[0] == 1.0, "{clear:?}");
+    bless("partly_clear", &warnings(&loaded));
+    file.set("/materials/0/extensions/KHR_materials_transmission", transmission(0.25));
+    let loaded = file.load().unwrap();
+    assert!(loaded.scene.objects[0].surface.clear.is_none());
+    bless("little_transmission", &warnings(&loaded));
+}
+
 fn base64(bytes: &[u8]) -> String {
     const ALPHABET: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     let mut text = String::new();

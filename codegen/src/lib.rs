@@ -17,6 +17,7 @@
 //! What this crate does not know: the GPU; how light scatters (that is `subsurface-profile`'s, and the shaders').
 
 mod bindings;
+mod clear;
 mod compiler;
 mod compose;
 mod constants;
@@ -57,6 +58,7 @@ mod validate;
 mod value;
 mod value_mismatch;
 
+pub use clear::ClearMaterial;
 pub use compiler::{Compilation, Compiler, Pass, runtime_bindings};
 pub use diagnostics::{Diagnostic, Severity};
 pub use load::{

@@ -10,8 +10,8 @@ use crate::material::{MaterialSet, ResolvedProfile};
 use crate::report::Report;
 use crate::resolve::{ChainEnd, Files, Resolution, chain, unknown_profile};
 use crate::schema::{
-    Decoder, MaterialFile, ProfileExpression, ProfileFile, SCHEMA_VERSION as VERSION, SET, SetFile,
-    decode_material, decode_profile_file, decode_set_file,
+    CLEAR, ClearFile, Decoder, MaterialFile, ProfileExpression, ProfileFile, SCHEMA_VERSION as VERSION, SET,
+    SetFile, decode_clear, decode_material, decode_profile_file, decode_set_file,
 };
 use crate::source::{FileId, Span, Spanned};
 use crate::suggestion::list;
@@ -82,9 +82,9 @@ pub fn load_memory<P: AsRef<Path>, B: AsRef<[u8]>>(files: impl IntoIterator<Item
 }
 
 fn load(mut reader: Reader, dir: &Path) -> Loaded {
-    let Resolution { materials, estimator, rejection, quality, .. } = load_set(&mut reader, dir);
+    let Resolution { materials, clear, estimator, rejection, quality, .. } = load_set(&mut reader, dir);
     let complete = !reader.report.has_errors();
-    let set = complete.then_some(MaterialSet { materials, estimator, rejection, quality });
+    let set = complete.then_some(MaterialSet { materials, clear, estimator, rejection, quality });
     let (report, files_read, directories_read) = reader.finish();
     Loaded { set, report, files_read, directories_read }
 }
@@ -117,8 +117,8 @@ pub fn load_profile(dir: &Path, stem: &str) -> LoadedProfile {
 /// Reports on directories of materials, single material files, single profile files and tables (`.csv`).
 ///
 /// A single material is checked with the bases and profiles that it names; errors in files that it does not use are
-/// left out. A file in a folder named `profiles` is a profile, as is one whose value is neither `Material(…)` nor
-/// `MaterialSet(…)`.
+/// left out. A file in a folder named `profiles` is a profile, as is one whose value is neither `Material(…)`, `Clear(…)`
+/// nor `MaterialSet(…)`.
 #[must_use]
 pub fn check_paths(paths: &[PathBuf]) -> Checked {
     let mut checked = Reader::disk();
@@ -160,7 +160,7 @@ fn check_file(reader: &mut Reader, path: &Path) {
 
 /// Whether a file holds a material, or describes the set.
 fn is_of_set(document: &Document<'_>) -> bool {
-    document.value.name().is_some_and(|name| name.text == "Material" || name.text == SET)
+    document.value.name().is_some_and(|name| ["Material", CLEAR, SET].contains(&name.text))
 }
 
 /// Reads the whole set that a file belongs to, and keeps what is said about the file.
@@ -217,8 +217,9 @@ fn resolve_set(reader: &mut Reader, paths: &[PathBuf], profiles: &Path) -> Resol
         let stem = stem(path);
         match reader.read(path).map(|file| decode(reader, file, path, &stem)) {
             Some(OfSet::Material(Some(material))) => files.materials.push(*material),
+            Some(OfSet::Clear(Some(clear))) => files.clear.push(clear),
             Some(OfSet::Set(set)) => files.sets.extend(set),
-            Some(OfSet::Material(None)) | None => {
+            Some(OfSet::Material(None) | OfSet::Clear(None)) | None => {
                 files.broken_materials.insert(stem);
             }
         }
@@ -237,6 +238,7 @@ fn resolve_set(reader: &mut Reader, paths: &[PathBuf], profiles: &Path) -> Resol
 /// What a file of a materials directory holds; `None` when nothing in it can be trusted.
 enum OfSet {
     Material(Option<Box<MaterialFile>>),
+    Clear(Option<ClearFile>),
     Set(Option<SetFile>),
 }
 
@@ -247,6 +249,9 @@ fn decode(reader: &mut Reader, file: FileId, path: &Path, stem: &str) -> OfSet {
     let decoded = match syntax::parse(file, &text) {
         Ok(document) if document.value.name().is_some_and(|name| name.text == SET) => {
             OfSet::Set(decode_set_file(&mut decoder, &document))
+        }
+        Ok(document) if document.value.name().is_some_and(|name| name.text == CLEAR) => {
+            OfSet::Clear(decode_clear(&mut decoder, stem, &document))
         }
         Ok(document) => OfSet::Material(decode_material(&mut decoder, file, stem, &document).map(Box::new)),
         Err(error) => {

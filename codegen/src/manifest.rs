@@ -60,6 +60,17 @@ pub(crate) fn manifest(of: &ManifestOf<'_>, module: &Module, reflection: &Reflec
             })
         })
         .collect();
+    let clear = of.set.clear.iter().map(|clear| {
+        json!({
+            "name": clear.name,
+            "docs": clear.docs,
+            "absorption_per_mm": clear.absorption_per_mm,
+            "refractive_index": clear.refractive_index,
+            "roughness": clear.roughness,
+            "shell_thickness_mm": clear.shell_thickness_mm,
+        })
+    });
+    let clear: Vec<Value> = clear.collect();
     let entry_points: Vec<Value> = reflection
         .entry_points
         .iter()
@@ -123,6 +134,7 @@ pub(crate) fn manifest(of: &ManifestOf<'_>, module: &Module, reflection: &Reflec
         "output_format": output_format.wgsl(),
         "profile_curves": { "file": PROFILE_CURVES_FILE, "format": "rgba32float", "size": of.curve_size },
         "materials": materials,
+        "clear_materials": clear,
         "entry_points": entry_points,
         // Constants that pipelines may set; the WGSL holds their defaults.
         "overrides": overrides,

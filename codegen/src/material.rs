@@ -11,6 +11,7 @@ use subsurface_profile::single_scattering_albedo::{
 };
 use subsurface_profile::{Length, Model};
 
+use crate::clear::ClearMaterial;
 use crate::quality_request::QualityRequest;
 use crate::source::Span;
 use subsurface_kernel::Estimator;
@@ -292,6 +293,8 @@ pub struct ResolvedProfile {
 pub struct MaterialSet {
     /// The materials, sorted by name; an index in this list is the material's id on the GPU.
     pub materials: Vec<Material>,
+    /// The clear materials, sorted by name: they do not scatter, and are no part of the kernel.
+    pub clear: Vec<ClearMaterial>,
     /// The estimator that the set's own file asks for, or the default one.
     pub estimator: Estimator,
     /// Which taps the estimator leaves out, as the set's own file says, or the default.

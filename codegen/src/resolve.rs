@@ -8,6 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use subsurface_profile::{Channel, Length, Medium};
 
+use crate::clear::ClearMaterial;
 use crate::diagnostics::Diagnostic;
 use crate::draft::Draft;
 use crate::identifier::{self, camel_case, screaming_case};
@@ -15,8 +16,8 @@ use crate::lint;
 use crate::material::{Coupling, Material, ResolvedProfile, SecondLobe, Transmittance};
 use crate::quality_request::QualityRequest;
 use crate::schema::{
-    DiffuseGiven, Given, LengthGiven, MaterialFile, OrMedium, ProfileExpression, ProfileFile, SET, SetFile,
-    Triple, clear_medium, reflectance_at_normal, rounded,
+    ClearFile, DiffuseGiven, Given, LengthGiven, MaterialFile, OrMedium, ProfileExpression, ProfileFile, SET,
+    SetFile, Triple, clear_medium, reflectance_at_normal, rounded,
 };
 use crate::source::{FileId, Span, Spanned};
 use crate::suggestion::{closest, list, shortened};
@@ -42,6 +43,8 @@ const MOST_NAMES: usize = 16;
 pub(crate) struct Files {
     /// Sorted by path.
     pub(crate) materials: Vec<MaterialFile>,
+    /// Sorted by path.
+    pub(crate) clear: Vec<ClearFile>,
     /// Stems of material files with an error that hides all their fields.
     pub(crate) broken_materials: BTreeSet<String>,
     /// The files of the set itself: one, or none.
@@ -57,6 +60,8 @@ pub(crate) struct Files {
 pub(crate) struct Resolution {
     /// The materials without errors, sorted by name.
     pub(crate) materials: Vec<Material>,
+    /// The clear ones without errors, sorted by name.
+    pub(crate) clear: Vec<ClearMaterial>,
     /// What the set's own file chooses, or the defaults.
     pub(crate) estimator: Estimator,
     pub(crate) rejection: Rejection,
@@ -110,11 +115,38 @@ impl Resolution {
             }
         }
         resolution.materials.sort_by(|a, b| a.name.cmp(&b.name));
+        resolution.take_clear(files);
         let alias_errors: Vec<_> =
             alias_errors.into_iter().map(|error| resolution.name_users(error)).collect();
         resolution.diagnostics.extend(alias_errors);
         resolution.choose(&files.sets);
         resolution
+    }
+
+    /// Takes the clear materials; reports names that are taken.
+    fn take_clear(&mut self, files: &Files) {
+        let mut names: BTreeMap<String, &Span> = BTreeMap::new();
+        let scattering = files.materials.iter().map(|material| &material.name);
+        for name in scattering.chain(files.clear.iter().map(|clear| &clear.name)) {
+            if let Some(first) = names.get(&screaming_case(&name.value)) {
+                // Two materials that scatter are reported elsewhere.
+                if files.clear.iter().any(|clear| std::ptr::eq(&clear.name, name)) {
+                    self.diagnostics.push(
+                        Diagnostic::error(format!(
+                            "two materials have the name `{}`",
+                            shortened(&name.value)
+                        ))
+                        .label(name.span.clone(), "this name is taken")
+                        .secondary((*first).clone(), "first used here")
+                        .help("rename one of the files, or give one a `name: \"…\"` of its own"),
+                    );
+                }
+                continue;
+            }
+            names.insert(screaming_case(&name.value), &name.span);
+        }
+        self.clear = files.clear.iter().filter_map(|clear| clear.material.clone()).collect();
+        self.clear.sort_by(|a, b| a.name.cmp(&b.name));
     }
 
     /// Takes what the set's own file chooses; reports a second such file.

@@ -160,3 +160,21 @@ fn the_curves_are_written_beside_the_rest() {
     let [width, height] = compilation.parts.curve_size().map(|extent| extent as usize);
     assert_eq!(curves.len(), 16 * width * height);
 }
+
+#[test]
+fn clear_materials_are_constants_of_their_own() {
+    let compilation = Compiler::new("tests/in/pass/clear").compile().expect("the set is good");
+    let [bottle, water] = &compilation.set.clear[..] else { panic!("{:?}", compilation.set.clear) };
+    assert_eq!((bottle.name.as_str(), bottle.shell_thickness_mm), ("green_bottle", Some(3.0)));
+    assert_eq!((water.name.as_str(), water.refractive_index, water.roughness), ("water", 1.33, 0.0));
+    let rust = &compilation.rust;
+    for part in [
+        "pub mod clear",
+        "pub const WATER: ::subsurface_runtime::ClearMaterial",
+        "shell_thickness_mm: Some(3.0)",
+    ] {
+        assert!(rust.contains(part), "no `{part}`");
+    }
+    let manifest = &compilation.manifest;
+    assert!(manifest.contains("\"clear_materials\"") && manifest.contains("\"green_bottle\""));
+}

@@ -62,6 +62,9 @@ pub enum FrameError {
         /// The pass.
         pass: &'static str,
     },
+    /// An object is clear, and the renderer draws none.
+    #[error("an object is clear, and Renderer was made without a pass for it: set `clear` of its descriptor")]
+    NoClearPass,
     /// The output may not be written as the pass writes.
     #[error(
         "{pass} writes to a texture of the usages {found:?}, and needs {expected:?}: make it with both, or let \

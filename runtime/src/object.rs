@@ -4,8 +4,10 @@ use std::mem::offset_of;
 
 use glam::{Mat3, Mat4, Vec3};
 
+use crate::bindings::clear;
 use crate::bindings::kernel::{BindGroup3, GBufferObject, ObjectTransform};
 use crate::bindings::shadow;
+use crate::clear_material::ClearMaterial;
 use crate::extent::Extent;
 use crate::geometry::Geometry;
 use crate::mips::Encoding;
@@ -93,6 +95,11 @@ pub struct SurfaceDescriptor<'a> {
     pub opaque_reflectance_at_normal: f32,
     /// Roughness where there is no material, 0 to 1; by default 0.6, that of plaster.
     pub opaque_roughness: f32,
+    /// A material that absorbs light and does not scatter it, in place of `material`; by default none. The renderer draws
+    /// such objects where its descriptor's `clear` says so.
+    pub clear: Option<ClearMaterial>,
+    /// Share of each pixel that a clear object covers, 0 to 1; by default 1.
+    pub clear_coverage: f32,
     /// World space from the space of the vertices (columns); by default the identity.
     pub world_from_object: [[f32; 4]; 4],
 }
@@ -115,6 +122,8 @@ impl Default for SurfaceDescriptor<'_> {
             thickness_mm: 0.0,
             opaque_reflectance_at_normal: 0.04,
             opaque_roughness: 0.6,
+            clear: None,
+            clear_coverage: 1.0,
             world_from_object: Mat4::IDENTITY.to_cols_array_2d(),
         }
     }
@@ -140,6 +149,9 @@ pub struct Object {
     pub(crate) geometry: Geometry,
     pub(crate) surface_group: wgpu::BindGroup,
     pub(crate) shadow_group: wgpu::BindGroup,
+    /// Where it is clear.
+    pub(crate) clear_group: Option<wgpu::BindGroup>,
+    clear_uniform: Option<wgpu::Buffer>,
     uniform: wgpu::Buffer,
     material: Option<u32>,
     has_details: bool,
@@ -238,16 +250,39 @@ impl Object {
             || surface.specular_strength.is_some()
             || surface.specular_strength_factor != 1.0
             || surface.thickness_mm > 0.0;
-        let material = surface.material;
+        let material = surface.material.filter(|_| surface.clear.is_none());
+        let clear_uniform = surface.clear.map(|clear| {
+            let own = clear::ClearObject {
+                transform: bytemuck::cast(transform(surface.world_from_object)),
+                ..clear.uniform(surface.clear_coverage)
+            };
+            device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+                label: Some("Object clear uniform"),
+                contents: bytemuck::bytes_of(&own),
+                usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+            })
+        });
+        let clear_group = clear_uniform.as_ref().map(|uniform| {
+            let layout = clear::BindGroup1::layout(device, "Object clear layout");
+            let group = clear::BindGroup1 { clear_object: uniform.as_entire_buffer_binding() };
+            group.create(device, &layout, "Object clear bind group")
+        });
         Ok(Self {
             geometry,
             surface_group,
             shadow_group,
+            clear_group,
+            clear_uniform,
             uniform,
             material,
             has_details,
             scales_mean_free_path,
         })
+    }
+
+    /// Whether it is drawn over the picture of the others.
+    pub(crate) fn is_clear(&self) -> bool {
+        self.clear_group.is_some()
     }
 
     /// Whether the mean free path is not its material's own everywhere.
@@ -267,7 +302,12 @@ impl Object {
     /// path stays in millimetres.
     pub fn set_transform(&self, queue: &wgpu::Queue, world_from_object: [[f32; 4]; 4]) {
         let offset = offset_of!(GBufferObject, transform) as u64;
-        queue.write_buffer(&self.uniform, offset, bytemuck::bytes_of(&transform(world_from_object)));
+        let transform = transform(world_from_object);
+        queue.write_buffer(&self.uniform, offset, bytemuck::bytes_of(&transform));
+        if let Some(uniform) = &self.clear_uniform {
+            let offset = offset_of!(clear::ClearObject, transform) as u64;
+            queue.write_buffer(uniform, offset, bytemuck::bytes_of(&transform));
+        }
     }
 
     /// Gives the object another material, or none: its number in the kernel, which

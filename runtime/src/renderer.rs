@@ -11,10 +11,12 @@ use crate::light::LightRanks;
 use crate::loaded_kernel::LoadedKernel;
 use crate::object::Object;
 use crate::pass::PassError;
-use crate::pass::composite::{CompositeDescriptor, CompositeInputs, CompositePass};
+use crate::pass::clear::{ClearDescriptor, ClearPass};
+use crate::pass::composite::{CompositeDescriptor, CompositeInputs, CompositePass, CompositeSettings};
 use crate::pass::gbuffer::{GBufferDescriptor, GBufferPass, GBufferView};
 use crate::pass::shadow::{ShadowDescriptor, ShadowPass};
 use crate::pass::subsurface::{Path, SubsurfaceDescriptor, SubsurfaceInputs, SubsurfacePass};
+use crate::pass::tone::{ToneDescriptor, TonePass};
 use crate::target::Target;
 use crate::timestamps::PassTimer;
 use crate::wgpu;
@@ -39,6 +41,9 @@ pub struct RendererDescriptor<'a> {
     /// Whether objects may scale the mean free path, by a texture or a factor: one target more, of two bytes a pixel. By
     /// default not.
     pub mean_free_path_scale: bool,
+    /// Whether objects may be clear ([`SurfaceDescriptor::clear`](crate::SurfaceDescriptor::clear)): three passes more, and
+    /// targets of 24 bytes a pixel. By default not.
+    pub clear: bool,
     /// Path of the subsurface pass; by default the best that the device has.
     pub path: Option<Path>,
     /// How the compute path of the subsurface pass shares its work; by default what suits the device.
@@ -55,6 +60,7 @@ impl Default for RendererDescriptor<'_> {
             label: None,
             format: wgpu::TextureFormat::Rgba8UnormSrgb,
             mean_free_path_scale: false,
+            clear: false,
             path: None,
             shape: None,
             pipeline_cache: None,
@@ -95,10 +101,20 @@ pub struct Renderer {
     pub subsurface: SubsurfacePass,
     /// Pass 4.
     pub composite: CompositePass,
+    clear: Option<Clear>,
     label: Label,
     ranks: LightRanks,
     mean_free_path_scale: bool,
     targets: Option<(GBuffer, Target)>,
+}
+
+/// What draws clear objects, between the composite pass and the picture.
+#[derive(Debug)]
+struct Clear {
+    pass: ClearPass,
+    tone: TonePass,
+    /// Linear radiance.
+    picture: Option<Target>,
 }
 
 impl Renderer {
@@ -114,8 +130,16 @@ impl Renderer {
         kernel: &LoadedKernel,
         descriptor: &RendererDescriptor<'_>,
     ) -> Result<Self, PassError> {
-        let RendererDescriptor { format, mean_free_path_scale, path, shape, pipeline_cache, timer, .. } =
-            *descriptor;
+        let RendererDescriptor {
+            format,
+            mean_free_path_scale,
+            clear,
+            path,
+            shape,
+            pipeline_cache,
+            timer,
+            ..
+        } = *descriptor;
         let names = ["ShadowPass", "GBufferPass", "SubsurfacePass", "CompositePass"];
         let labels =
             names.map(|name| descriptor.label.map_or(name.to_owned(), |label| format!("{label} {name}")));
@@ -153,18 +177,26 @@ impl Renderer {
             device,
             &CompositeDescriptor {
                 label: composite,
-                format,
+                format: if clear { ClearPass::FORMAT } else { format },
                 kernel: Some(kernel),
                 pipeline_cache,
                 timestamps: timestamps(3),
             },
         );
         let label = Label::new(descriptor.label, NAME);
+        let clear = clear.then(|| {
+            let [clear, tone] = ["ClearPass", "TonePass"]
+                .map(|name| descriptor.label.map_or(name.to_owned(), |label| format!("{label} {name}")));
+            let pass = ClearDescriptor { label: Some(&clear), pipeline_cache };
+            let tone = ToneDescriptor { label: Some(&tone), format, pipeline_cache };
+            Clear { pass: ClearPass::new(device, &pass), tone: TonePass::new(device, &tone), picture: None }
+        });
         Ok(Self {
             shadow,
             gbuffer,
             subsurface,
             composite,
+            clear,
             label,
             ranks: LightRanks::default(),
             mean_free_path_scale,
@@ -193,6 +225,9 @@ impl Renderer {
     /// # Errors
     /// As of [`new`](Self::new).
     pub fn set_environment(&mut self, environment: Option<Environment>) -> Result<(), PassError> {
+        if let Some(clear) = &mut self.clear {
+            clear.pass.set_environment(environment.clone());
+        }
         self.gbuffer.set_environment(environment)
     }
 
@@ -230,6 +265,12 @@ impl Renderer {
             device,
             &CompositeInputs::new(&diffused.view, &targets.unscattered.view, &targets.surface.view),
         )?;
+        if let Some(clear) = &mut self.clear {
+            let picture = Target::new(device, size, ClearPass::FORMAT, &self.label.of("radiance"))?;
+            clear.pass.bind(device, &targets.depth)?;
+            clear.tone.bind(device, &picture.view)?;
+            clear.picture = Some(picture);
+        }
         self.targets = Some((targets, diffused));
         Ok(())
     }
@@ -243,23 +284,25 @@ impl Renderer {
         let size = targets.size();
         self.ranks.update(frame.lights, &frame.bounds);
         self.shadow.prepare(queue, frame.lights, &self.ranks, &frame.bounds);
-        self.gbuffer.prepare(
-            queue,
-            &GBufferView {
-                size,
-                camera: &frame.camera,
-                lights: frame.lights,
-                ranks: Some(&self.ranks),
-                ambient_irradiance: frame.ambient_irradiance,
-                environment_intensity: frame.environment_intensity,
-                environment_turn_radians: frame.environment_turn_radians,
-                transmission: frame.transmission,
-                bounds: frame.bounds,
-                millimetres_per_world_unit: frame.millimetres_per_world_unit,
-            },
-        )?;
+        let view = GBufferView {
+            size,
+            camera: &frame.camera,
+            lights: frame.lights,
+            ranks: Some(&self.ranks),
+            ambient_irradiance: frame.ambient_irradiance,
+            environment_intensity: frame.environment_intensity,
+            environment_turn_radians: frame.environment_turn_radians,
+            transmission: frame.transmission,
+            bounds: frame.bounds,
+            millimetres_per_world_unit: frame.millimetres_per_world_unit,
+        };
+        self.gbuffer.prepare(queue, &view)?;
         self.subsurface.prepare(queue, &frame.subsurface_view(size))?;
-        self.composite.prepare(queue, &frame.composite)
+        let Some(clear) = &mut self.clear else { return self.composite.prepare(queue, &frame.composite) };
+        clear.pass.prepare(queue, &view)?;
+        clear.tone.prepare(queue, &frame.composite)?;
+        let linear = CompositeSettings { exposure: 1.0, tone_map: false, ..frame.composite };
+        self.composite.prepare(queue, &linear)
     }
 
     /// Records all four passes; the picture goes to `output`, whose alpha is 1 where an object is and 0 on the
@@ -277,7 +320,35 @@ impl Renderer {
         self.shadow.encode(encoder, objects)?;
         self.gbuffer.encode(encoder, objects, targets)?;
         self.subsurface.encode(encoder, &diffused.view)?;
-        self.composite.encode(encoder, output)
+        self.encode_picture(encoder, objects, output)
+    }
+
+    /// Records what comes after the subsurface pass: the composite pass, and what is clear.
+    ///
+    /// # Errors
+    /// As of [`encode`](Self::encode).
+    pub fn encode_picture(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        objects: &[Object],
+        output: &wgpu::TextureView,
+    ) -> Result<(), FrameError> {
+        let Some(clear) = &self.clear else {
+            if objects.iter().any(Object::is_clear) {
+                return Err(FrameError::NoClearPass);
+            }
+            return self.composite.encode(encoder, output);
+        };
+        let Some(picture) = &clear.picture else { return Err(FrameError::NotResized) };
+        self.composite.encode(encoder, &picture.view)?;
+        clear.pass.encode(encoder, objects, picture)?;
+        clear.tone.encode(encoder, output)
+    }
+
+    /// Linear radiance of the picture, before exposure; `None` where the renderer draws nothing clear, and before the first
+    /// [`resize`](Self::resize).
+    pub fn radiance(&self) -> Option<&Target> {
+        self.clear.as_ref()?.picture.as_ref()
     }
 
     /// The G-buffer; `None` before the first [`resize`](Self::resize).

@@ -29,3 +29,15 @@ fn srgb_from_linear(linear: vec3f) -> vec3f {
     let high = 1.055 * pow(clamped, vec3f(1.0 / 2.4)) - 0.055;
     return select(high, low, clamped <= vec3f(0.0031308));
 }
+
+/// Radiance as a display takes it: tone mapped where `tone_map` is 1, then encoded as sRGB where `encode_srgb` is.
+fn display_colour(radiance: vec3f, tone_map: u32, encode_srgb: u32) -> vec3f {
+    var colour = radiance;
+    if tone_map != 0u {
+        colour = clamp(tone_map_neutral(radiance), vec3f(0.0), vec3f(1.0));
+    }
+    if encode_srgb != 0u {
+        colour = srgb_from_linear(colour);
+    }
+    return colour;
+}

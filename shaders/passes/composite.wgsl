@@ -51,12 +51,7 @@ fn composite_fragment(@builtin(position) position: vec4f) -> @location(0) vec4f 
     let lit = diffused.rgb * leaving_albedo / PI * exit + unscattered.rgb;
     let radiance = composite_settings.exposure * select(background, lit, unscattered.a > 0.5);
 
-    var colour = radiance;
-    if composite_settings.tone_map != 0u {
-        colour = clamp(tone_map_neutral(radiance), vec3f(0.0), vec3f(1.0));
-    }
-    if composite_settings.encode_srgb != 0u {
-        colour = srgb_from_linear(colour);
-    }
+    let settings = composite_settings;
+    let colour = display_colour(radiance, settings.tone_map, settings.encode_srgb);
     return vec4f(colour, min(unscattered.a, 1.0));
 }

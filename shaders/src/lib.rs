@@ -129,6 +129,7 @@ pub const KERNELS: &[Module] = modules![
 
 /// Light on surfaces: what enters, what is reflected, what comes through.
 pub const LIGHT: &[Module] = modules![
+    "light/absorption",
     "light/coupling",
     "light/diffuse_lobe",
     "light/environment",
@@ -136,6 +137,7 @@ pub const LIGHT: &[Module] = modules![
     "light/light",
     "light/lit_surface",
     "light/normal_map",
+    "light/refraction",
     "light/shadow",
     "light/specular",
     "light/specular_albedo",
@@ -151,10 +153,13 @@ pub const LIGHT: &[Module] = modules![
 /// the same names.
 pub const PASSES: &[Module] = modules![
     "passes/classify_compute",
+    "passes/clear",
+    "passes/clear_exit",
     "passes/composite",
     "passes/dense",
     "passes/distance",
     "passes/gbuffer",
+    "passes/halve",
     "passes/importance_sampled",
     "passes/interleaved",
     "passes/interleaved_compute",
@@ -167,6 +172,7 @@ pub const PASSES: &[Module] = modules![
     "passes/subsurface_compute",
     "passes/subsurface_debug",
     "passes/subsurface_fragment",
+    "passes/tone",
 ];
 
 /// Every module, room by room.

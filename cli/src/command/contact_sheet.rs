@@ -4,7 +4,8 @@ use super::kernel::KernelArguments;
 use super::material_set;
 use super::render::{DEFAULT_MATERIAL, PictureFile};
 use super::view::{MeshArguments, load_scene};
-use crate::draw::{Frame, Shown, Studio};
+use crate::draw::device::Device;
+use crate::draw::{Frame, Needs, Shown, Studio};
 use crate::failure::Failure;
 use crate::picture::contact_sheet::{Tile, compose};
 use crate::picture::{file, write_png};
@@ -87,13 +88,10 @@ pub fn run(arguments: &ContactSheetArguments) -> Result<(), Failure> {
     let files = with_variants(&original.files_read, &shown, arguments)?;
     let materials = arguments.kernel.compile(&Compiler::from_memory(files))?;
     // Without an adapter, there is no point in sculpting.
-    let mut studio = Studio::open(
-        &materials,
-        arguments.kernel.route.chosen(),
-        arguments.mesh.details.scales_mean_free_path(),
-    )?;
-    say!("{}", studio.description());
+    let device = Device::open()?;
     let scene = load_scene(&arguments.mesh)?;
+    let mut studio = Studio::on(device, &materials, arguments.kernel.route.chosen(), Needs::of(&scene))?;
+    say!("{}", studio.description());
     let camera = Camera::framing(&scene, arguments.size.aspect(), DEFAULT_FOV_Y_DEGREES);
     let progress = bar(shown.len() as u64, "drawing");
     let mut tiles = Vec::new();

@@ -48,11 +48,6 @@ pub struct DetailArguments {
 }
 
 impl DetailArguments {
-    /// Whether a renderer must take scales of the mean free path.
-    pub(super) fn scales_mean_free_path(&self) -> bool {
-        self.mean_free_path_scale.is_some()
-    }
-
     /// Puts them on all objects but those that are black; prints warnings.
     pub(super) fn apply(&self, scene: &mut Scene) -> Result<(), Failure> {
         let read = |detail: &Option<Detail>| -> Result<Option<Image>, Failure> {

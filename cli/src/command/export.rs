@@ -1,7 +1,7 @@
 //! `subsurface export`.
 
 use super::material_set;
-use super::render::{DEFAULT_MATERIAL, material_of_object};
+use super::render::DEFAULT_MATERIAL;
 use super::view::{MeshArguments, ViewArguments, load_scene};
 use crate::failure::{Explain, Failure, warning};
 use crate::mitsuba::{Boundary, CHANNELS, Exported, Medium, flaws, ply, xml};
@@ -13,7 +13,7 @@ use crate::say;
 use crate::scene::camera::Size;
 use crate::scene::environment::Environment;
 use crate::scene::light::Light;
-use crate::scene::{Object, Surface};
+use crate::scene::{ClearSurface, Object, Surface};
 use clap::{Args, ValueEnum};
 use std::fmt;
 use std::path::PathBuf;
@@ -82,6 +82,7 @@ enum Difference {
     Black,
     MeanAlbedo { object: String },
     MeanScale { object: String },
+    Shell { object: String },
     AlbedoMix { material: String },
     SmoothHighlights,
     NormalMap { object: String },
@@ -106,6 +107,9 @@ impl fmt::Display for Difference {
             }
             Self::MeanAlbedo { object } => {
                 write!(f, "`{object}` has a texture of its surface albedo: its mean is exported")
+            }
+            Self::Shell { object } => {
+                write!(f, "`{object}` is a shell: what its mesh bounds is exported as filled")
             }
             Self::MeanScale { object } => {
                 write!(f, "`{object}` has a texture of its mean free path: its mean is exported")
@@ -161,6 +165,7 @@ impl Explain for Difference {
                 Self::SecondLobe { .. } => "compare with a picture of a material without it",
                 Self::Strength { .. } => "compare with a picture of a material whose strength is 1",
                 Self::Spot => "compare within the cone's inner nine tenths",
+                Self::Shell { .. } => "give the mesh an inner side, and the material no `shell_thickness_mm`",
                 Self::Thin { .. } => "give the mesh the sheet's thickness, and the material no `thin`",
                 Self::GuessedEntry { .. } => {
                     "name a published profile, or `diffuse: Chandrasekhar(entry: …)`"
@@ -174,8 +179,9 @@ impl Explain for Difference {
 /// Runs the command.
 pub fn run(arguments: &ExportArguments) -> Result<(), Failure> {
     let materials = material_set::compile(&arguments.materials)?;
-    let fallback = material_set::number(&materials, &arguments.material)?;
-    let scene = load_scene(&arguments.mesh)?;
+    let fallback = material_set::chosen(&materials, &arguments.material)?;
+    let mut scene = load_scene(&arguments.mesh)?;
+    let numbers = material_set::assign(&mut scene, &materials, fallback);
     let camera = arguments.view.camera(&scene, arguments.size)?;
     let lights: Vec<Light> =
         arguments.view.lights().into_iter().filter(|light| light.intensity() > 0.0).collect();
@@ -189,13 +195,15 @@ pub fn run(arguments: &ExportArguments) -> Result<(), Failure> {
     let mut differences = Vec::new();
     let mut exported = Vec::new();
     let spinner = Spinner::new("writing meshes");
-    let numbers = material_of_object(&scene, &materials, fallback);
     for (index, (object, number)) in scene.objects.iter().zip(numbers).enumerate() {
         let file = format!("object_{index}.ply");
         write_atomically(&arguments.out.join(&file), &ply(&object.mesh))?;
         let material = &materials.set.materials[number as usize];
-        let medium = (!object.surface.is_black)
-            .then(|| medium(object, material, arguments.boundary, &lights, &mut differences));
+        let medium = match &object.surface.clear {
+            _ if object.surface.is_black => None,
+            Some(clear) => Some(clear_medium(object, clear, &lights, &mut differences)),
+            None => Some(medium(object, material, arguments.boundary, &lights, &mut differences)),
+        };
         exported.push(Exported { file, medium });
     }
     drop(spinner);
@@ -274,6 +282,27 @@ fn medium(
     }
     let albedo = surface_albedo(&object.surface, material);
     (Medium::of(material, albedo, mean_free_path_scale(&object.surface), boundary), boundary)
+}
+
+/// What is clear: a medium that scatters nothing.
+fn clear_medium(
+    object: &Object,
+    clear: &ClearSurface,
+    lights: &[Light],
+    differences: &mut Vec<Difference>,
+) -> (Medium, Boundary) {
+    if clear.shell_thickness_mm.is_some() {
+        differences.push(Difference::Shell { object: object.name.clone() });
+    }
+    let boundary = Boundary::of_index(f64::from(clear.refractive_index), f64::from(clear.roughness));
+    if boundary != Boundary::Matched && lights.iter().any(is_point) {
+        differences.push(Difference::Black);
+    }
+    let medium = Medium {
+        mean_free_path_mm: clear.absorption_per_mm.map(|absorption| 1.0 / f64::from(absorption)),
+        single_scattering_albedo: [0.0; 3],
+    };
+    (medium, boundary)
 }
 
 /// One channel of an environment as grey, with its intensity, and light from everywhere alike: a scene of Mitsuba's has

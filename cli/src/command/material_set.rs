@@ -2,9 +2,10 @@
 
 use crate::failure::Failure;
 use crate::progress::Spinner;
+use crate::scene::{ClearSurface, Scene};
 use crate::suggestion::suggest;
 use std::path::Path;
-use subsurface_codegen::{Compilation, Compiler, Report};
+use subsurface_codegen::{ClearMaterial, Compilation, Compiler, Report};
 
 /// The directory when none is given.
 pub(super) const DEFAULT_DIRECTORY: &str = "materials";
@@ -55,6 +56,56 @@ pub(super) fn existing(directory: &Path) -> Result<&Path, Failure> {
     }
     let message = format!("there is no materials directory {}", directory.display());
     Err(Failure::new(message, "name one with --materials DIR; it holds one .ron file per material"))
+}
+
+/// What `--material` names.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Chosen {
+    /// The number of a material that scatters.
+    Scattering(u32),
+    /// A material that is clear.
+    Clear(ClearSurface),
+}
+
+/// The material `name`, scattering or clear, or an error that lists the others.
+pub(super) fn chosen(compilation: &Compilation, name: &str) -> Result<Chosen, Failure> {
+    match compilation.set.clear.iter().find(|clear| clear.name == name) {
+        Some(clear) => Ok(Chosen::Clear(clear_surface(clear))),
+        None => number(compilation, name).map(Chosen::Scattering),
+    }
+}
+
+fn clear_surface(clear: &ClearMaterial) -> ClearSurface {
+    ClearSurface {
+        absorption_per_mm: clear.absorption_per_mm.map(|absorption| absorption as f32),
+        refractive_index: clear.refractive_index as f32,
+        roughness: clear.roughness as f32,
+        shell_thickness_mm: clear.shell_thickness_mm.map(|thickness| thickness as f32),
+        coverage: 1.0,
+    }
+}
+
+/// Gives the objects of a scene their materials: by the name that the file gives, else `fallback`. The number of one that
+/// is clear means nothing.
+pub(crate) fn assign(scene: &mut Scene, compilation: &Compilation, fallback: Chosen) -> Vec<u32> {
+    let of = |name: Option<&str>| name.and_then(|name| chosen(compilation, name).ok());
+    let assigned = scene.objects.iter_mut().map(|object| {
+        let surface = &mut object.surface;
+        let named = of(surface.material_name.as_deref());
+        // What the file itself has clear stays so, unless it has the name of a material of the set.
+        match named.or((surface.clear.is_none()).then_some(fallback)) {
+            Some(Chosen::Scattering(number)) => {
+                surface.clear = None;
+                number
+            }
+            Some(Chosen::Clear(clear)) => {
+                surface.clear = Some(clear);
+                0
+            }
+            None => 0,
+        }
+    });
+    assigned.collect()
 }
 
 /// Number of the material `name`, or an error that lists the others.

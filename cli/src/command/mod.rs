@@ -32,9 +32,6 @@ pub mod reference;
 pub mod render;
 pub(crate) mod view;
 
-#[cfg(feature = "analysis")]
-pub(crate) use render::material_of_object;
-
 use crate::failure::Failure;
 use clap::{Parser, Subcommand};
 

@@ -3,17 +3,17 @@
 use super::kernel::KernelArguments;
 use super::material_set;
 use super::view::{MeshArguments, ViewArguments, load_scene};
-use crate::draw::{Drawn, Frame, Shown, Studio};
+use crate::draw::device::Device;
+use crate::draw::{Drawn, Frame, Needs, Shown, Studio};
 use crate::failure::{Failure, warning};
 use crate::picture::{exr, file, write_png};
 use crate::progress::Spinner;
 use crate::say;
 use crate::scene::camera::Size;
-use crate::scene::{Scene, light_warning};
+use crate::scene::light_warning;
 use clap::builder::{PossibleValuesParser, TypedValueParser as _};
 use clap::{Args, value_parser};
 use std::path::{Path, PathBuf};
-use subsurface_codegen::Compilation;
 use subsurface_runtime::DebugView;
 
 /// The material when none is given.
@@ -117,13 +117,12 @@ pub fn run(arguments: &RenderArguments) -> Result<(), Failure> {
     let compiler = material_set::compiler(&arguments.materials)?;
     let compiler = if arguments.debug.is_some() { compiler.with_debug_views() } else { compiler };
     let materials = arguments.kernel.compile(&compiler)?;
-    let material = material_set::number(&materials, &arguments.material)?;
-    let mut studio = Studio::open(
-        &materials,
-        arguments.kernel.route.chosen(),
-        arguments.mesh.details.scales_mean_free_path(),
-    )?;
-    let scene = load_scene(&arguments.mesh)?;
+    let fallback = material_set::chosen(&materials, &arguments.material)?;
+    // Without an adapter, there is no point in reading a mesh.
+    let device = Device::open()?;
+    let mut scene = load_scene(&arguments.mesh)?;
+    let material_of_object = material_set::assign(&mut scene, &materials, fallback);
+    let mut studio = Studio::on(device, &materials, arguments.kernel.route.chosen(), Needs::of(&scene))?;
     let environment = arguments.view.environment()?;
     let lights = arguments.view.lights();
     for suspect in light_warning::warnings(&lights, &scene.bounds) {
@@ -133,7 +132,7 @@ pub fn run(arguments: &RenderArguments) -> Result<(), Failure> {
         let _spinner = Spinner::new("drawing");
         studio.draw(&Frame {
             scene: &scene,
-            material_of_object: &material_of_object(&scene, &materials, material),
+            material_of_object: &material_of_object,
             camera: arguments.view.camera(&scene, arguments.size)?,
             lights: &lights,
             ambient_intensity: arguments.view.ambient,
@@ -157,14 +156,6 @@ pub fn run(arguments: &RenderArguments) -> Result<(), Failure> {
         }
     }
     Ok(())
-}
-
-/// The material of each object: by its glTF material's name, else `fallback`.
-pub(crate) fn material_of_object(scene: &Scene, materials: &Compilation, fallback: u32) -> Vec<u32> {
-    let of = |name: Option<&str>| {
-        name.and_then(|name| materials.set.index_of(name)).map_or(fallback, |n| n as u32)
-    };
-    scene.objects.iter().map(|object| of(object.surface.material_name.as_deref())).collect()
 }
 
 fn save(arguments: &RenderArguments, drawn: &Drawn) -> Result<(), Failure> {

@@ -13,7 +13,7 @@ mod uploaded;
 pub use buffers::{Buffers, PixelScale};
 pub use diffuse::diffuse;
 pub use route::Route;
-pub use studio::{Drawn, Frame, Shown, Studio, Timings};
+pub use studio::{Drawn, Frame, Needs, Shown, Studio, Timings};
 pub use uploaded::{Precision, Uploaded};
 
 use subsurface_runtime::{FrameError, KernelParts, LoadedKernel, SubsurfaceDescriptor, SubsurfacePass, wgpu};

@@ -18,7 +18,7 @@ use crate::picture::{DisplayPicture, LinearPicture};
 use crate::scene::camera::{Camera, Size};
 use crate::scene::environment::Environment;
 use crate::scene::light::Light;
-use crate::scene::{Image, MILLIMETRES_PER_METRE, Scene};
+use crate::scene::{Image, MILLIMETRES_PER_METRE, Scene, Surface};
 
 /// Format of the picture for the screen: its bytes are sRGB code values.
 const DISPLAY_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
@@ -99,6 +99,28 @@ impl fmt::Display for Timings {
     }
 }
 
+/// What a scene asks of a renderer.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Needs {
+    /// Objects scale the mean free path.
+    mean_free_path_scale: bool,
+    /// Objects are clear.
+    clear: bool,
+}
+
+impl Needs {
+    /// Of this scene.
+    pub fn of(scene: &Scene) -> Self {
+        let any = |has: fn(&Surface) -> bool| scene.objects.iter().any(|object| has(&object.surface));
+        Self {
+            mean_free_path_scale: any(|surface| {
+                surface.mean_free_path_scale.is_some() || surface.mean_free_path_scale_factor != 1.0
+            }),
+            clear: any(|surface| surface.clear.is_some()),
+        }
+    }
+}
+
 /// A device with the passes of one material set.
 #[derive(Debug)]
 pub struct Studio {
@@ -112,10 +134,13 @@ pub struct Studio {
 }
 
 impl Studio {
-    /// Opens a device and makes the pipelines; `route` is the subsurface pass's. Objects may scale the mean free path where
-    /// `scales_mean_free_path`.
-    pub fn open(materials: &Compilation, route: Route, scales_mean_free_path: bool) -> Result<Self, Failure> {
-        let device = Device::open()?;
+    /// Opens a device and makes the pipelines; `route` is the subsurface pass's.
+    pub fn open(materials: &Compilation, route: Route, needs: Needs) -> Result<Self, Failure> {
+        Self::on(Device::open()?, materials, route, needs)
+    }
+
+    /// The same on a device that is open.
+    pub fn on(device: Device, materials: &Compilation, route: Route, needs: Needs) -> Result<Self, Failure> {
         let timer = PassTimer::new(&device.device, &device.queue, &Renderer::PASSES).ok();
         let (renderer, linear) = device.checked(|| {
             let kernel = load(&device, &materials.parts)?;
@@ -123,7 +148,8 @@ impl Studio {
             let Route { path, shape } = route;
             let descriptor = RendererDescriptor {
                 format: DISPLAY_FORMAT,
-                mean_free_path_scale: scales_mean_free_path,
+                mean_free_path_scale: needs.mean_free_path_scale,
+                clear: needs.clear,
                 path,
                 shape,
                 timer,
@@ -186,7 +212,6 @@ fn draw(
     let target =
         |format, label| Target::new(&device.device, size, format, label).map_err(|e| beyond_device(&e));
     let display = target(DISPLAY_FORMAT, "Studio display picture")?;
-    let linear_target = target(LINEAR_FORMAT, "Studio linear picture")?;
     let render = |encoder: &mut wgpu::CommandEncoder| renderer.encode(encoder, &objects, &display.view);
     let timings = match timer {
         _ if !frame.wants_timings => {
@@ -217,6 +242,7 @@ fn draw(
     let (Some(targets), Some(diffused)) = (renderer.targets(), renderer.diffused()) else {
         return Err(Failure::new("the frame has no targets", "please report this as a defect"));
     };
+    let linear_target = target(LINEAR_FORMAT, "Studio linear picture")?;
     let inputs = CompositeInputs::new(&diffused.view, &targets.unscattered.view, &targets.surface.view);
     linear.bind(&device.device, &inputs).map_err(|error| beyond_device(&error))?;
     let settings = CompositeSettings { tone_map: false, ..Default::default() };
@@ -230,7 +256,9 @@ fn draw(
     } else {
         let bytes = device.read_bytes(&display.texture)?;
         let pixels = bytes.chunks_exact(4).map(|texel| [texel[0], texel[1], texel[2]]).collect();
-        (DisplayPicture { size: drawn_size, pixels }, picture(device, &linear_target, drawn_size)?)
+        // What is clear was drawn over the composite pass's picture.
+        let linear = renderer.radiance().unwrap_or(&linear_target);
+        (DisplayPicture { size: drawn_size, pixels }, picture(device, linear, drawn_size)?)
     };
     Ok(Drawn {
         display: display.shrunk(factor),
@@ -340,6 +368,13 @@ fn objects(device: &Device, frame: &Frame<'_>) -> Result<Vec<Object>, Failure> {
             mean_free_path_scale_factor: surface.mean_free_path_scale_factor,
             thickness: surface.thickness.as_ref().map(pixels),
             thickness_mm: surface.thickness_mm,
+            clear: surface.clear.map(|clear| runtime::ClearMaterial {
+                absorption_per_mm: clear.absorption_per_mm,
+                refractive_index: clear.refractive_index,
+                roughness: clear.roughness,
+                shell_thickness_mm: clear.shell_thickness_mm,
+            }),
+            clear_coverage: surface.clear.map_or(1.0, |clear| clear.coverage),
             ..Default::default()
         };
         let made = Object::new(&device.device, &device.queue, geometry, &descriptor);
@@ -378,7 +413,7 @@ fn run_passes(
     timed(&|encoder| renderer.shadow.encode(encoder, objects))?;
     timed(&|encoder| renderer.gbuffer.encode(encoder, objects, targets))?;
     timed(&|encoder| renderer.subsurface.encode(encoder, &diffused.view))?;
-    timed(&|encoder| renderer.composite.encode(encoder, &output.view))?;
+    timed(&|encoder| renderer.encode_picture(encoder, objects, &output.view))?;
     Ok(Renderer::PASSES.map(str::to_owned).into_iter().zip(times).collect())
 }
 

@@ -2,7 +2,7 @@
 
 use super::case::Case;
 use super::subject::Subject;
-use crate::draw::{Buffers, Drawn, Frame, PixelScale, Route, Shown, Studio};
+use crate::draw::{Buffers, Drawn, Frame, Needs, PixelScale, Route, Shown, Studio};
 use crate::failure::Failure;
 use crate::picture::LinearPicture;
 use crate::scene::Scene;
@@ -39,7 +39,7 @@ impl SceneCases<'_> {
         subject: &Subject,
         footprint_pixels: f64,
     ) -> Result<Case, Failure> {
-        let mut studio = Studio::open(materials, Route::default(), false)?;
+        let mut studio = Studio::open(materials, Route::default(), Needs::default())?;
         let height = f64::from(self.size.height);
         let framing = Camera::framing(self.scene, self.size.aspect(), DEFAULT_FOV_Y_DEGREES);
         let offset = Vec3::from(framing.position) - Vec3::from(framing.target);

@@ -25,11 +25,18 @@ pub enum Boundary {
 impl Boundary {
     /// The boundary with the material's specular lobe.
     pub fn of(material: &Material) -> Self {
-        let refractive_index = material.boundary_index();
+        Self::of_index(material.boundary_index(), material.roughness)
+    }
+
+    /// The boundary of an index, with a perceptual roughness.
+    pub fn of_index(refractive_index: f64, roughness: f64) -> Self {
         if refractive_index <= 1.0 {
             return Self::Matched;
         }
-        Self::Rough { refractive_index, alpha: material.roughness.powi(2).max(1e-3) }
+        if roughness == 0.0 {
+            return Self::Smooth { refractive_index };
+        }
+        Self::Rough { refractive_index, alpha: roughness.powi(2).max(1e-3) }
     }
 
     /// The same without its roughness.

@@ -6,8 +6,7 @@ mod variant;
 pub use truths::{TruthCase, read};
 pub use variant::Variant;
 
-use crate::command::material_of_object;
-use crate::draw::{Frame, Route, Shown, Studio};
+use crate::draw::{Frame, Needs, Route, Shown, Studio};
 use crate::failure::Failure;
 use crate::picture::LinearPicture;
 use crate::picture::comparison::{Comparison, compare};
@@ -70,7 +69,7 @@ impl Bench {
         let environment = case.scene.view.environment()?;
         let drawn = studio.draw(&Frame {
             scene,
-            material_of_object: &material_of_object(scene, materials, number),
+            material_of_object: &vec![number; scene.objects.len()],
             camera: case.scene.view.camera(scene, case.scene.size)?,
             lights: &lights,
             ambient_intensity: case.scene.view.ambient,
@@ -108,7 +107,7 @@ impl Bench {
                 let compiler = estimator.map_or(compiler.clone(), |estimator| compiler.estimator(estimator));
                 let compiled = compiler.compile();
                 let compiled = compiled.map_err(|report| Failure::reported(report.render(false)))?;
-                let studio = Studio::open(&compiled, Route::default(), false)?;
+                let studio = Studio::open(&compiled, Route::default(), Needs::default())?;
                 self.studios.push((estimator, studio, compiled));
                 self.studios.len() - 1
             }

@@ -146,6 +146,8 @@ pub struct Surface {
     pub thickness_mm: f32,
     /// Name of the material in the file.
     pub material_name: Option<String>,
+    /// Absorbs light, and does not scatter it; in place of a material of the set.
+    pub clear: Option<ClearSurface>,
     /// Sends nothing back and lets nothing through: it only casts shadows.
     pub is_black: bool,
 }
@@ -166,9 +168,25 @@ impl Default for Surface {
             thickness: None,
             thickness_mm: 0.0,
             material_name: None,
+            clear: None,
             is_black: false,
         }
     }
+}
+
+/// What is clear, and how much of each pixel it covers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ClearSurface {
+    /// Absorption coefficient per mm, linear red, green, blue.
+    pub absorption_per_mm: [f32; 3],
+    /// Refractive index over that of air.
+    pub refractive_index: f32,
+    /// Perceptual roughness of its boundary.
+    pub roughness: f32,
+    /// Thickness of its walls (mm), where it is hollow.
+    pub shell_thickness_mm: Option<f32>,
+    /// Share of each pixel that it covers, in [0, 1].
+    pub coverage: f32,
 }
 
 /// An RGBA8 image; whether its numbers are sRGB or linear is said where it is used.

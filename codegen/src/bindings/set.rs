@@ -3,9 +3,10 @@
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
 
+use crate::clear::ClearMaterial;
 use crate::docs::Docs;
 use crate::file_names::{PROFILE_CURVES_FILE, PROFILE_TABLES_FILE};
-use crate::identifier::camel_case;
+use crate::identifier::{camel_case, screaming_case};
 use crate::layout::{FieldType, Structure, structure};
 use crate::material::MaterialSet;
 use crate::value::Value;
@@ -55,6 +56,7 @@ pub(crate) fn set_tokens(
         };
         (tables, quote!(.profile_tables(PROFILE_TABLES)))
     };
+    let clear = clear_tokens(&bindings.set.clear, runtime);
     let curves = PROFILE_CURVES_FILE;
     let [curve_width, curve_height] = bindings.parts.curve_size().map(Literal::u32_unsuffixed);
     let kernel_module = kernel_module(bindings.parts.module(), runtime);
@@ -122,6 +124,7 @@ pub(crate) fn set_tokens(
         pub const PROVENANCE: &str = #provenance;
         /// The parameter table, by material number.
         pub static MATERIALS: [#row_name; #count] = [#(#rows),*];
+        #clear
         #tables
         /// The curves of all profiles: the bytes of an rgba32float texture, row by row.
         #[allow(dead_code)]
@@ -146,6 +149,41 @@ pub(crate) fn set_tokens(
                 .build()
                 .expect("the parts of one compilation fit")
         }
+    }
+}
+
+/// The clear materials as constants.
+fn clear_tokens(materials: &[ClearMaterial], runtime: &TokenStream) -> TokenStream {
+    if materials.is_empty() {
+        return TokenStream::new();
+    }
+    let constants = materials.iter().map(|material| {
+        let name = Ident::new(&screaming_case(&material.name), Span::call_site());
+        let docs = doc_attributes(&material.docs, &format!("The clear material `{}`.", material.name));
+        let absorption = material.absorption_per_mm.map(|value| number(value as f32));
+        let [index, roughness] =
+            [material.refractive_index, material.roughness].map(|value| number(value as f32));
+        let shell = match material.shell_thickness_mm {
+            Some(thickness) => {
+                let thickness = number(thickness as f32);
+                quote!(Some(#thickness))
+            }
+            None => quote!(None),
+        };
+        quote! {
+            #docs
+            pub const #name: #runtime::ClearMaterial = #runtime::ClearMaterial {
+                absorption_per_mm: [#(#absorption),*],
+                refractive_index: #index,
+                roughness: #roughness,
+                shell_thickness_mm: #shell,
+            };
+        }
+    });
+    quote! {
+        /// Materials of the set that are clear: they absorb light, and do not scatter it.
+        #[allow(dead_code)]
+        pub mod clear { #(#constants)* }
     }
 }
 

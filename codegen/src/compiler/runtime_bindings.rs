@@ -3,7 +3,7 @@
 use crate::constants::shared_constants;
 use proc_macro2::TokenStream;
 use quote::quote;
-use subsurface_shaders::{LIBRARY, Module, PASSES};
+use subsurface_shaders::{LIBRARY, LIGHT, Module, PASSES};
 
 use crate::bindings::{self, Paths};
 use crate::compose::{Files, Glue, link};
@@ -29,11 +29,15 @@ pub fn runtime_bindings() -> Result<String, Report> {
         ("shadow", &["shadow_vertex"][..]),
         ("composite", &["composite_vertex", "composite_fragment"]),
         ("distance", &["distance_vertex", "distance_fragment"]),
+        ("clear", &["clear_vertex", "clear_fragment"]),
+        ("clear_exit", &["clear_exit_vertex", "clear_exit_fragment"]),
+        ("halve", &["halve_vertex", "halve_fragment"]),
+        ("tone", &["tone_vertex", "tone_fragment"]),
     ] {
         let mut report = Report::default();
         let module_name = format!("passes/{name}");
         let pass: Vec<Module> = PASSES.iter().filter(|pass| pass.name == module_name).copied().collect();
-        let rooms: Vec<Module> = LIBRARY.iter().copied().chain(shared_constants()).collect();
+        let rooms: Vec<Module> = LIBRARY.iter().chain(LIGHT).copied().chain(shared_constants()).collect();
         let files = Files { rooms: &rooms, passes: &pass, guests: &[] };
         let header = format!("// Linked by subsurface-codegen from {module_name} and what it calls.\n");
         let linked = link(files, &Glue::default(), roots, &header);

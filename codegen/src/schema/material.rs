@@ -7,6 +7,7 @@ use crate::identifier;
 use crate::material::{Coupling, SecondLobe, Transmittance};
 use crate::schema::body::Body;
 use crate::schema::choice::choice;
+use crate::schema::clear::CLEAR;
 use crate::schema::decoder::{Decoder, Fields, Given, Triple, head};
 use crate::schema::diffuse::{DiffuseGiven, decode_diffuse};
 use crate::schema::medium::{OrMedium, decode_medium};
@@ -105,7 +106,7 @@ pub(crate) fn decode_material(
         let found = node.name();
         let mut diagnostic = Diagnostic::error("expected a material")
             .label(head(found.as_ref(), node), format!("expected `Material(…)`, found {}", node.kind()));
-        if let Some(meant) = found.as_ref().and_then(|name| closest(name.text, ["Material", SET])) {
+        if let Some(meant) = found.as_ref().and_then(|name| closest(name.text, ["Material", SET, CLEAR])) {
             diagnostic = diagnostic.help(format!("did you mean `{meant}`?"));
         }
         let help = "a material is `Material(profile: …, mean_free_path_mm: …, surface_albedo: …)`; profiles belong \
@@ -371,7 +372,7 @@ fn decode_thin(decoder: &mut Decoder, fields: &Fields<'_>) -> Given<Spanned<f64>
     })
 }
 
-fn check_name(decoder: &mut Decoder, name: &Spanned<String>, is_given: bool) {
+pub(super) fn check_name(decoder: &mut Decoder, name: &Spanned<String>, is_given: bool) {
     let Err(bad) = identifier::check(&name.value) else { return };
     let shown = shortened(&name.value);
     let label = if is_given {

@@ -4,6 +4,7 @@
 
 mod body;
 mod choice;
+mod clear;
 mod decoder;
 mod diffuse;
 mod material;
@@ -15,6 +16,7 @@ mod quality;
 mod quantity;
 mod set_file;
 
+pub(crate) use clear::{CLEAR, ClearFile, decode_clear};
 pub(crate) use decoder::{Decoder, Given, Tables, Triple};
 pub(crate) use diffuse::{DiffuseGiven, no_entry, other_coupling};
 pub(crate) use material::{LengthGiven, MaterialFile, SCHEMA_VERSION, decode_material};

@@ -35,6 +35,30 @@ pub(crate) const SURFACE_ALBEDO_MIX: Quantity = Quantity {
     meaning: "give the power of the surface albedo that light is multiplied by where it enters: 0 for none of it, 1 for all, 0.5 for its square root",
 };
 
+pub(crate) const TRANSMITTED_COLOUR: Quantity = Quantity {
+    noun: "colour of what comes through",
+    unit: "",
+    bounds: Bounds::Unit,
+    kind: "number",
+    meaning: "give the share of the light that is left after `at_distance_mm`, linear, from 0 to 1 (clear)",
+};
+
+pub(crate) const DISTANCE: Quantity = Quantity {
+    noun: "distance",
+    unit: "mm",
+    bounds: Bounds::Positive,
+    kind: "number",
+    meaning: "give the distance at which white light has the colour, in mm",
+};
+
+pub(crate) const SHELL_THICKNESS: Quantity = Quantity {
+    noun: "thickness of the shell",
+    unit: "mm",
+    bounds: Bounds::Positive,
+    kind: "number",
+    meaning: "give the thickness of the walls in mm: 2 for a glass, 0.001 for a soap bubble; leave it out for what is filled",
+};
+
 pub(crate) const REFLECTANCE: Quantity = Quantity {
     noun: "reflectance at normal incidence",
     unit: "",

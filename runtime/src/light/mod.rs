@@ -1,10 +1,12 @@
 //! Lights: where they are, how much each of them matters, and what their shadow maps see.
 
+mod buffer;
 mod directional;
 mod lamp;
 mod ranks;
 mod shadow_camera;
 
+pub(crate) use buffer::LightBuffer;
 pub use directional::DirectionalLight;
 pub use lamp::{PointLight, SpotLight};
 pub use ranks::{LightRanks, SHADOW_MAPS};

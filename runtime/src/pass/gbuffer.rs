@@ -2,8 +2,7 @@
 
 use crate::bind_error::BindError;
 use crate::bindings::kernel::{
-    self, BindGroup3, ENTRY_GBUFFER_FRAGMENT, ENTRY_GBUFFER_VERTEX, GBufferFrame, GBufferVertex,
-    GbufferBindGroup2,
+    BindGroup3, ENTRY_GBUFFER_FRAGMENT, ENTRY_GBUFFER_VERTEX, GBufferFrame, GBufferVertex, GbufferBindGroup2,
 };
 use crate::camera::{Bounds, Camera};
 use crate::environment::Environment;
@@ -12,7 +11,7 @@ use crate::frame_error::FrameError;
 use crate::gbuffer::{GBuffer, TRANSLUCENT_STENCIL};
 use crate::input::{Holds, Input};
 use crate::label::Label;
-use crate::light::{Light, LightRanks};
+use crate::light::{Light, LightBuffer, LightRanks};
 use crate::loaded_kernel::LoadedKernel;
 use crate::object::Object;
 use crate::output::{Output, Progress};
@@ -37,9 +36,6 @@ pub struct GBufferDescriptor<'a> {
     /// Where the pass writes its times; by default nowhere.
     pub timestamps: Option<Timestamps>,
 }
-
-/// Lights that the first buffer holds; it grows with the frames.
-const FIRST_LIGHTS: usize = 8;
 
 /// Camera and lights of one frame.
 ///
@@ -129,28 +125,6 @@ struct Bound {
     shadow_maps: wgpu::TextureView,
 }
 
-/// The lights of a frame.
-#[derive(Debug)]
-struct LightBuffer {
-    buffer: wgpu::Buffer,
-    /// How many it holds.
-    capacity: usize,
-    /// What is written to it, kept from frame to frame.
-    rows: Vec<kernel::Light>,
-}
-
-impl LightBuffer {
-    fn new(device: &wgpu::Device, label: &Label, capacity: usize) -> Self {
-        let buffer = device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some(&label.of("lights")),
-            size: (capacity * size_of::<kernel::Light>()) as u64,
-            usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST,
-            mapped_at_creation: false,
-        });
-        Self { buffer, capacity, rows: Vec::with_capacity(capacity) }
-    }
-}
-
 impl GBufferPass {
     /// Pipeline and layouts.
     ///
@@ -174,7 +148,7 @@ impl GBufferPass {
             compare: Some(wgpu::CompareFunction::LessEqual),
             ..Default::default()
         });
-        let lights = LightBuffer::new(device, &label, FIRST_LIGHTS);
+        let lights = LightBuffer::new(device, label.of("lights"));
         let darkness = Environment::darkness(device);
         Ok(Self {
             label,
@@ -251,7 +225,7 @@ impl GBufferPass {
             frame: self.uniform.as_entire_buffer_binding(),
             shadow_maps: &shadow_maps,
             shadow_comparison: &self.comparison,
-            lights: self.lights.buffer.as_entire_buffer_binding(),
+            lights: self.lights.binding(),
             environment_radiance: environment.radiance(),
             environment_sampler: environment.sampler(),
         }
@@ -267,7 +241,11 @@ impl GBufferPass {
         if self.bound.is_none() {
             return Err(FrameError::NotBound { pass: NAME });
         }
-        self.upload_lights(queue, view);
+        if self.lights.upload(&self.device, queue, view)
+            && let Some(bound) = self.bound.take()
+        {
+            self.bind_group(bound.shadow_maps);
+        }
         let projection =
             glam::Mat4::from_cols_array_2d(&view.camera.projection(view.size.aspect(), &view.bounds));
         let environment = self.environment.as_ref().unwrap_or(&self.darkness);
@@ -283,29 +261,6 @@ impl GBufferPass {
         self.size = view.size;
         self.progress = Progress::Prepared;
         Ok(())
-    }
-
-    /// Writes the lights by their ranks; a buffer that is too small is made anew, twice as large.
-    fn upload_lights(&mut self, queue: &wgpu::Queue, view: &GBufferView<'_>) {
-        let count = view.lights.len();
-        if count > self.lights.capacity {
-            self.lights = LightBuffer::new(&self.device, &self.label, count.next_power_of_two());
-            if let Some(bound) = self.bound.take() {
-                self.bind_group(bound.shadow_maps);
-            }
-        }
-        let rows = &mut self.lights.rows;
-        rows.clear();
-        let row = |index: usize, layer| {
-            view.lights[index].uniform(layer, &view.bounds, view.millimetres_per_world_unit)
-        };
-        match view.ranks {
-            Some(ranks) => {
-                rows.extend(ranks.order().iter().map(|&index| row(index, ranks.layer(index))));
-            }
-            None => rows.extend((0..count).map(|index| row(index, None))),
-        }
-        queue.write_buffer(&self.lights.buffer, 0, bytemuck::cast_slice(rows));
     }
 
     /// Records the pass into `targets`, which have the view's size.
@@ -359,7 +314,7 @@ impl GBufferPass {
         pass.set_bind_group(0, self.kernel.bind_group(), &[]);
         pass.set_bind_group(GbufferBindGroup2::INDEX, &bound.bind_group, &[]);
         let mut current = None;
-        for object in objects {
+        for object in objects.iter().filter(|object| !object.is_clear()) {
             let has_details = object.has_details();
             if current != Some(has_details) {
                 pass.set_pipeline(self.pipelines.of(has_details));

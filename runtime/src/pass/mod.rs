@@ -1,5 +1,6 @@
-//! The four passes, and one beside them.
+//! The four passes, and those beside them.
 
+pub mod clear;
 pub mod composite;
 mod covering_pass;
 mod covering_pipeline;
@@ -8,6 +9,7 @@ pub mod gbuffer;
 mod pass_error;
 pub mod shadow;
 pub mod subsurface;
+pub mod tone;
 
 pub use pass_error::PassError;
 

@@ -170,7 +170,7 @@ impl ShadowPass {
             });
             pass.set_pipeline(&self.pipeline);
             pass.set_bind_group(0, &layer.bind_group, &[]);
-            for object in objects {
+            for object in objects.iter().filter(|object| !object.is_clear()) {
                 pass.set_bind_group(BindGroup1::INDEX, &object.shadow_group, &[]);
                 object.geometry.draw(&mut pass);
             }

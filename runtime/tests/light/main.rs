@@ -4,6 +4,7 @@
 
 mod albedo_mix;
 mod angles;
+mod clear;
 mod energy;
 #[path = "../gpu/mod.rs"]
 mod gpu;

@@ -99,6 +99,8 @@ pub struct Scene<'a> {
     pub objects: Vec<Object>,
     /// Of the subsurface pass; by default it does nothing.
     pub taps: Option<u32>,
+    /// Radiance where nothing is.
+    pub background: f32,
 }
 
 /// A texel of the targets: red, green, blue and alpha.
@@ -111,16 +113,22 @@ impl<'a> Scene<'a> {
 
     /// The material `skin` of a set of files.
     pub fn of(gpu: &'a Gpu, files: &[(&str, &str)], meshes: &[Mesh]) -> Self {
+        Self::with(gpu, files, meshes, false)
+    }
+
+    /// The same, of which objects may be clear.
+    pub fn with(gpu: &'a Gpu, files: &[(&str, &str)], meshes: &[Mesh], clear: bool) -> Self {
         let kernel = gpu.load(&compile(files).parts);
         let descriptor = RendererDescriptor {
             format: wgpu::TextureFormat::Rgba32Float,
             mean_free_path_scale: true,
+            clear,
             ..Default::default()
         };
         let mut renderer =
             Renderer::new(&gpu.device, &kernel, &descriptor).expect("the kernel has a G-buffer");
         renderer.resize(&gpu.device, SIZE).expect("a small frame");
-        let mut scene = Self { gpu, kernel, renderer, objects: Vec::new(), taps: Some(0) };
+        let mut scene = Self { gpu, kernel, renderer, objects: Vec::new(), taps: Some(0), background: 0.0 };
         scene.objects = meshes.iter().map(|mesh| scene.object(mesh)).collect();
         scene
     }
@@ -172,7 +180,11 @@ impl<'a> Scene<'a> {
             lights,
             ambient_irradiance: [ambient; 3],
             taps: self.taps,
-            composite: CompositeSettings { tone_map: false, ..Default::default() },
+            composite: CompositeSettings {
+                tone_map: false,
+                background: [[self.background; 3]; 2],
+                ..Default::default()
+            },
             ..Frame::new(camera, bounds, 1000.0)
         };
         self.renderer.prepare(&self.gpu.queue, &frame).expect("resized above");

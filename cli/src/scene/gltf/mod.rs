@@ -4,6 +4,7 @@
 //! of the file is read, or its first. Animations, skins, morph targets, cameras and lights are passed over.
 
 mod accessor;
+mod clear;
 mod error;
 mod primitive;
 mod source;
@@ -151,6 +152,7 @@ impl Loader<'_> {
             specular_strength_factor: specular.map_or(1.0, |specular| specular.specular_factor()),
             thickness,
             thickness_mm,
+            clear: clear::clear_surface(material, scale, place, &mut self.warnings),
             material_name: material.name().map(str::to_owned),
             ..Surface::default()
         })

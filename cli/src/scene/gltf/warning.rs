@@ -13,6 +13,9 @@ pub enum GltfWarning {
     NoIndices { place: Place, vertex_count: usize },
     DegenerateTriangles { place: Place, count: usize, of: usize },
     NoTextureCoordinates { place: Place },
+    LittleTransmission { place: Place },
+    PartlyClear { place: Place },
+    TintedVolume { place: Place },
 }
 
 impl std::fmt::Display for GltfWarning {
@@ -31,6 +34,21 @@ impl std::fmt::Display for GltfWarning {
             Self::NoTextureCoordinates { place } => {
                 write!(f, "{place} has a texture but no texture coordinates")
             }
+            Self::LittleTransmission { place } => {
+                write!(
+                    f,
+                    "{place} transmits half of the light or less: it is drawn as if it transmitted none"
+                )
+            }
+            Self::PartlyClear { place } => {
+                write!(f, "{place} transmits a part of the light, or by a texture: it is drawn clear")
+            }
+            Self::TintedVolume { place } => {
+                write!(
+                    f,
+                    "{place} is clear and has a base colour that its absorption does not say: it is left out"
+                )
+            }
         }
     }
 }
@@ -48,6 +66,13 @@ impl Explain for GltfWarning {
             Self::DegenerateTriangles { .. } => "merge doubled vertices to be rid of this",
             Self::NoTextureCoordinates { .. } => {
                 "the whole surface takes the colour of the texture's upper left pixel; unwrap the mesh"
+            }
+            Self::LittleTransmission { .. } => "set its `transmissionFactor` to 0 or 1",
+            Self::PartlyClear { .. } => {
+                "set its `transmissionFactor` to 1 without a texture, or give the object a `Clear(…)` by name"
+            }
+            Self::TintedVolume { .. } => {
+                "give the colour as `attenuationColor` at an `attenuationDistance`, and a white base colour"
             }
         };
         Some(help.to_owned())
