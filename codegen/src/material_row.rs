@@ -34,7 +34,12 @@ pub(crate) fn row(
 ) -> Value {
     let (number, coefficients) = models.row(&material.profile.model, shared);
     let is_slab = material.transmittance == Transmittance::Slab || material.thin_thickness_mm.is_some();
-    let slab_length = if is_slab { material.slab_mean_free_path_mm() } else { [0.0; 3] };
+    let scales = material.profile.model.dependence().on_length();
+    let slab_length = match (is_slab, scales) {
+        (true, _) => material.slab_mean_free_path_mm(),
+        (false, true) => material.slab_mean_free_path_mm().map(|length| -length),
+        (false, false) => [0.0; 3],
+    };
     let surface = Value::Struct(vec![
         ("mean_free_path_mm", Value::vector(material.mean_free_path_mm)),
         ("model", Value::U32(number)),

@@ -26,19 +26,50 @@ impl Default for Camera {
     }
 }
 
-/// A sphere around all that is drawn: shadow maps and clip planes are fitted to it.
+/// A sphere and a box around all that is drawn: shadow maps and clip planes are fitted to both.
+///
+/// ```
+/// use subsurface_runtime::Bounds;
+///
+/// let head = Bounds::of_box([-0.1, -0.2, -0.1], [0.1, 0.1, 0.15]);
+/// assert_eq!(head.half_extents[1], 0.15);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bounds {
-    /// Centre in world units.
+    /// Centre of both in world units.
     pub centre: [f32; 3],
-    /// Radius in world units, > 0.
+    /// Radius of the sphere in world units, > 0.
     pub radius: f32,
+    /// Half the edges of the box in world units.
+    pub half_extents: [f32; 3],
 }
 
 impl Bounds {
     /// A sphere of `radius` around `centre`, in world units.
     pub const fn new(centre: [f32; 3], radius: f32) -> Self {
-        Self { centre, radius }
+        Self { centre, radius, half_extents: [radius; 3] }
+    }
+
+    /// A box from corner to corner, in world units: shadow maps fit it better than the sphere around it. A single point
+    /// still gets a sphere of a tenth of a millionth.
+    pub fn of_box(minimum: [f32; 3], maximum: [f32; 3]) -> Self {
+        let [minimum, maximum] = [minimum, maximum].map(Vec3::from);
+        let half = (0.5 * (maximum - minimum)).max(Vec3::ZERO);
+        let centre = (0.5 * (minimum + maximum)).to_array();
+        Self { centre, radius: half.length().max(1e-7), half_extents: half.to_array() }
+    }
+
+    /// How far they reach from their centre along a unit vector.
+    pub(crate) fn reach(&self, direction: Vec3) -> f32 {
+        direction.abs().dot(Vec3::from(self.half_extents)).min(self.radius)
+    }
+
+    /// The corners of the box.
+    pub(crate) fn corners(&self) -> [Vec3; 8] {
+        std::array::from_fn(|corner| {
+            let side = |axis: usize| if corner >> axis & 1 == 0 { -1.0 } else { 1.0 };
+            Vec3::from(self.centre) + Vec3::new(side(0), side(1), side(2)) * Vec3::from(self.half_extents)
+        })
     }
 }
 

@@ -17,6 +17,13 @@ use crate::wgpu::{self, util::DeviceExt as _};
 /// Both passes that draw objects read the transform from one buffer.
 const _: () = assert!(size_of::<ObjectTransform>() == size_of::<shadow::ObjectTransform>());
 
+/// What a move changes: the transform, and behind it the curvature.
+const PLACED_BYTES: usize = size_of::<ObjectTransform>() + size_of::<f32>();
+const _: () = assert!(
+    offset_of!(GBufferObject, mean_curvature)
+        == offset_of!(GBufferObject, transform) + size_of::<ObjectTransform>()
+);
+
 /// Pixels of a texture, 8 bits each of red, green, blue and alpha, row by row from the top. Smaller levels, for surfaces
 /// far away, are made of them.
 #[derive(Clone, Copy, Debug)]
@@ -136,7 +143,7 @@ impl Default for SurfaceDescriptor<'_> {
 /// # fn place(device: &wgpu::Device, queue: &wgpu::Queue, geometry: Geometry) -> Result<(), Box<dyn std::error::Error>> {
 /// let surface = SurfaceDescriptor { material: Some(0), ..Default::default() };
 /// let object = Object::new(device, queue, geometry, &surface)?;
-/// // A step to the right: one write of 112 bytes, and nothing else.
+/// // A step to the right: one write of 116 bytes, and nothing else.
 /// object.set_transform(
 ///     queue,
 ///     [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.1, 0.0, 0.0, 1.0]],
@@ -195,6 +202,7 @@ impl Object {
         let overrides = surface.surface_albedo.is_some() || surface.surface_albedo_factor != [1.0; 3];
         let uniform = GBufferObject {
             transform: transform(surface.world_from_object),
+            mean_curvature: mean_curvature(&geometry, surface.world_from_object),
             surface_albedo_factor: surface.surface_albedo_factor,
             material: stored_number(surface.material),
             normal_scale: if surface.normals.is_some() { surface.normal_scale } else { 0.0 },
@@ -209,6 +217,7 @@ impl Object {
             specular_strength_factor: surface.specular_strength_factor.max(0.0),
             mean_free_path_scale: surface.mean_free_path_scale_factor,
             thickness_mm: surface.thickness_mm.max(0.0),
+            ..bytemuck::Zeroable::zeroed()
         };
         let uniform = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
             label: Some("Object uniform"),
@@ -303,7 +312,11 @@ impl Object {
     pub fn set_transform(&self, queue: &wgpu::Queue, world_from_object: [[f32; 4]; 4]) {
         let offset = offset_of!(GBufferObject, transform) as u64;
         let transform = transform(world_from_object);
-        queue.write_buffer(&self.uniform, offset, bytemuck::bytes_of(&transform));
+        let mut placed = [0; PLACED_BYTES];
+        placed[..size_of::<ObjectTransform>()].copy_from_slice(bytemuck::bytes_of(&transform));
+        let curvature = mean_curvature(&self.geometry, world_from_object);
+        placed[size_of::<ObjectTransform>()..].copy_from_slice(&curvature.to_ne_bytes());
+        queue.write_buffer(&self.uniform, offset, &placed);
         if let Some(uniform) = &self.clear_uniform {
             let offset = offset_of!(clear::ClearObject, transform) as u64;
             queue.write_buffer(uniform, offset, bytemuck::bytes_of(&transform));
@@ -326,6 +339,13 @@ impl Object {
     pub(crate) fn is_translucent(&self) -> bool {
         self.material.is_some()
     }
+}
+
+/// Mean curvature of a mesh in the world: a scale makes it flatter.
+fn mean_curvature(geometry: &Geometry, world_from_object: [[f32; 4]; 4]) -> f32 {
+    let scale = Mat4::from_cols_array_2d(&world_from_object).determinant().abs().cbrt();
+    // What a transform flattens has no inside.
+    if scale > 0.0 { geometry.mean_curvature() / scale } else { 0.0 }
 }
 
 /// The material as the shader takes it: −1 for none.

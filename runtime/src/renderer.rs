@@ -38,6 +38,8 @@ pub struct RendererDescriptor<'a> {
     pub label: Option<&'a str>,
     /// Format of the picture; by default `Rgba8UnormSrgb`.
     pub format: wgpu::TextureFormat,
+    /// Texels per side of a shadow map; by default 2048.
+    pub shadow_map_size: Option<u32>,
     /// Whether objects may scale the mean free path, by a texture or a factor: one target more, of two bytes a pixel. By
     /// default not.
     pub mean_free_path_scale: bool,
@@ -59,6 +61,7 @@ impl Default for RendererDescriptor<'_> {
         Self {
             label: None,
             format: wgpu::TextureFormat::Rgba8UnormSrgb,
+            shadow_map_size: None,
             mean_free_path_scale: false,
             clear: false,
             path: None,
@@ -147,7 +150,12 @@ impl Renderer {
         let timestamps = |pass| timer.and_then(|timer| timer.timestamps(pass));
         let shadow = ShadowPass::new(
             device,
-            &ShadowDescriptor { label: shadow, pipeline_cache, timestamps: timestamps(0) },
+            &ShadowDescriptor {
+                label: shadow,
+                map_size: descriptor.shadow_map_size,
+                pipeline_cache,
+                timestamps: timestamps(0),
+            },
         );
         let gbuffer = GBufferPass::new(
             device,

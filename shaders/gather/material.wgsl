@@ -11,7 +11,8 @@ struct MaterialSurface {
     surface_albedo: vec3f,
     /// Specular reflectance at normal incidence F₀, 0 to 1.
     reflectance_at_normal: f32,
-    /// Mean free path by which the light of a slab falls, mm; 0 where the profile says what comes through.
+    /// Mean free path by which the light of a slab falls, mm; below 0 where the profile says what comes through, and 0
+    /// where it has lengths of its own.
     slab_mean_free_path_mm: vec3f,
     /// Thickness of a material that is a sheet, mm; 0 for one that fills what it bounds.
     thin_thickness_mm: f32,

@@ -49,6 +49,23 @@ fn half_space_h(u: vec3f, root: vec3f) -> vec3f {
     return 1.0 / (root + (1.0 - root) * u);
 }
 
+/// Light from everywhere alike that a convex body returns, over what a flat one does: in a ball of radius 1/H diffusion
+/// has for γ what a half-space has for γ (coth x − 1/x), x = 1/(H ℓ_d), ℓ_d = ℓ √((1 + γ²)/3)/γ. Below a boundary total
+/// reflection returns 1 − 1/η² of what would leave. Light that was scattered once knows nothing of that: the gain
+/// counts by α. `curvature` is H ℓ, 0 and less for what is flat.
+fn convex_gain(root: vec3f, inverse_square: f32, curvature: vec3f) -> vec3f {
+    let x = root * sqrt(3.0) / (max(curvature, vec3f(1e-6)) * sqrt(1.0 + root * root));
+    // coth x − 1/x; x/3 where their difference would round.
+    let langevin = select(1.0 / tanh(min(x, vec3f(20.0))) - 1.0 / x, x / 3.0, x < vec3f(0.05));
+    let curved = root * langevin;
+    let flat_albedo = relative_diffuse_albedo(root);
+    let curved_albedo = (1.0 - curved) * relative_diffuse_albedo(curved);
+    let kept = 1.0 - inverse_square;
+    let leaving = (1.0 - kept * (1.0 - root) * flat_albedo) / (1.0 - kept * curved_albedo);
+    let gain = root * root + (1.0 + root) * curved_albedo / flat_albedo * leaving;
+    return select(vec3f(1.0), gain, curvature > vec3f(1e-6));
+}
+
 /// 1/⟨H⟩, ⟨H⟩ = 2 ∫ H(μ) μ dμ.
 fn inverse_mean_h(root: vec3f) -> vec3f {
     let c = HALF_SPACE_MEAN;

@@ -1,4 +1,4 @@
-// uses: gather/{input, mean_free_path_scale}, kernel/constants, lib/{albedo_mix, angle, medium_angles, noise, numeric_limits, object_transform, slab}, light/{coupling, diffuse_lobe, environment, light, normal_map, shadow, specular_surface, transmission}, the material set
+// uses: gather/{input, mean_free_path_scale}, kernel/constants, lib/{albedo_mix, angle, half_space, medium_angles, noise, numeric_limits, object_transform, slab}, light/{coupling, diffuse_lobe, environment, light, normal_map, shadow, specular_surface, transmission}, the material set
 
 /// Camera and light from everywhere of one frame.
 struct GBufferFrame {
@@ -14,12 +14,16 @@ struct GBufferFrame {
     transmission: f32,
     /// Light that comes from everywhere, but not alike.
     environment: Environment,
+    /// Millimetres that a world unit has.
+    millimetres_per_world_unit: f32,
 }
 
 /// What one object adds to its material, or has instead of one.
 struct GBufferObject {
     /// Where it stands.
     transform: ObjectTransform,
+    /// Mean curvature of its surface in the mean, per world unit; 0 and less for what is flat or hollow.
+    mean_curvature: f32,
     /// Factor on the surface albedo texture.
     surface_albedo_factor: vec3f,
     /// Material number in the set, or −1: opaque.
@@ -216,6 +220,10 @@ fn gbuffer_fragment(interpolated: GBufferInterpolated, @builtin(front_facing) fr
         }
     }
     var irradiance = around * ambient_share * medium_ambient_entry(medium);
+    // A lobe of its own is for what does not spread, and a sheet has no inside.
+    let is_convex = translucent && !is_thin && !has_brdf && object.mean_curvature > 0.0;
+    let curvature = select(0.0, object.mean_curvature / frame.millimetres_per_world_unit, is_convex);
+    irradiance *= convex_gain(medium.root, medium.inverse_square, curvature * abs(slab_length));
     if DIFFUSE_LOBES && has_brdf {
         irradiance *= diffuse_lobe_ambient(lobe, normal, towards_camera);
     }

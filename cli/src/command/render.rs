@@ -60,6 +60,9 @@ pub struct RenderArguments {
     /// Pixels drawn per pixel of the picture, along each side: 2 or more smooth the silhouettes.
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = value_parser!(u32).range(1..=8))]
     pub supersample: u32,
+    /// Texels per side of each light's shadow map, 64 to 16384; by default 2048.
+    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(64..=16384))]
+    pub shadow_map_size: Option<u32>,
     /// Print how long each pass took on the device; the frame is then drawn twice, since the first time compiles shaders.
     ///
     /// An adapter without timestamps is timed from submission until it is done.
@@ -122,7 +125,8 @@ pub fn run(arguments: &RenderArguments) -> Result<(), Failure> {
     let device = Device::open()?;
     let mut scene = load_scene(&arguments.mesh)?;
     let material_of_object = material_set::assign(&mut scene, &materials, fallback);
-    let mut studio = Studio::on(device, &materials, arguments.kernel.route.chosen(), Needs::of(&scene))?;
+    let needs = Needs { shadow_map_size: arguments.shadow_map_size, ..Needs::of(&scene) };
+    let mut studio = Studio::on(device, &materials, arguments.kernel.route.chosen(), needs)?;
     let environment = arguments.view.environment()?;
     let lights = arguments.view.lights();
     for suspect in light_warning::warnings(&lights, &scene.bounds) {

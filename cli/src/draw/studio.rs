@@ -103,9 +103,11 @@ impl fmt::Display for Timings {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Needs {
     /// Objects scale the mean free path.
-    mean_free_path_scale: bool,
+    pub mean_free_path_scale: bool,
     /// Objects are clear.
-    clear: bool,
+    pub clear: bool,
+    /// Texels per side of a shadow map, where the renderer's own number will not do.
+    pub shadow_map_size: Option<u32>,
 }
 
 impl Needs {
@@ -117,6 +119,7 @@ impl Needs {
                 surface.mean_free_path_scale.is_some() || surface.mean_free_path_scale_factor != 1.0
             }),
             clear: any(|surface| surface.clear.is_some()),
+            shadow_map_size: None,
         }
     }
 }
@@ -150,6 +153,7 @@ impl Studio {
                 format: DISPLAY_FORMAT,
                 mean_free_path_scale: needs.mean_free_path_scale,
                 clear: needs.clear,
+                shadow_map_size: needs.shadow_map_size,
                 path,
                 shape,
                 timer,
@@ -277,11 +281,7 @@ fn prepare(
     size: Extent,
 ) -> Result<SubsurfaceView, Failure> {
     let lights: Vec<runtime::Light> = frame.lights.iter().map(runtime_light).collect();
-    let bounds = runtime::Bounds {
-        centre: frame.scene.bounds.centre(),
-        // A single point still needs a sphere to fit shadow maps to.
-        radius: frame.scene.bounds.radius().max(1e-4),
-    };
+    let bounds = runtime::Bounds::of_box(frame.scene.bounds.minimum, frame.scene.bounds.maximum);
     let camera = runtime::Camera {
         position: frame.camera.position,
         target: frame.camera.target,

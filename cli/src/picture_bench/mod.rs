@@ -17,12 +17,18 @@ use subsurface_codegen::{Compilation, Compiler, Estimator};
 /// Pixels drawn per pixel of a truth, along each side.
 const SUPERSAMPLING: u32 = 4;
 
+/// Texels per side of finer shadow maps.
+const FINE_SHADOWS: u32 = 4096;
+
+/// A kernel, and whether shadow maps are finer.
+type Kind = (Option<Estimator>, bool);
+
 /// Draws variants of the materials of a folder.
 #[derive(Debug)]
 pub struct Bench {
     files: Vec<(PathBuf, Vec<u8>)>,
-    /// A studio for each kernel, opened when first needed.
-    studios: Vec<(Option<Estimator>, Studio, Compilation)>,
+    /// A studio of each kind, opened when first needed.
+    studios: Vec<(Kind, Studio, Compilation)>,
     variants: Vec<(String, Variant)>,
 }
 
@@ -63,7 +69,7 @@ impl Bench {
         let Some(place) = place else {
             return Err(Failure::new("no such variant", "please report this as a defect"));
         };
-        let (_, studio, materials) = self.studio(variant.estimator)?;
+        let (_, studio, materials) = self.studio((variant.estimator, variant.has_fine_shadows))?;
         let number = materials.set.index_of(&name(&case.material, place)).unwrap_or_default() as u32;
         let lights = case.scene.view.lights();
         let environment = case.scene.view.environment()?;
@@ -96,19 +102,19 @@ impl Bench {
         })
     }
 
-    fn studio(
-        &mut self,
-        estimator: Option<Estimator>,
-    ) -> Result<&mut (Option<Estimator>, Studio, Compilation), Failure> {
-        let place = match self.studios.iter().position(|(own, ..)| *own == estimator) {
+    fn studio(&mut self, kind: Kind) -> Result<&mut (Kind, Studio, Compilation), Failure> {
+        let place = match self.studios.iter().position(|(own, ..)| *own == kind) {
             Some(place) => place,
             None => {
                 let compiler = Compiler::from_memory(self.files.clone());
+                let (estimator, has_fine_shadows) = kind;
                 let compiler = estimator.map_or(compiler.clone(), |estimator| compiler.estimator(estimator));
                 let compiled = compiler.compile();
                 let compiled = compiled.map_err(|report| Failure::reported(report.render(false)))?;
-                let studio = Studio::open(&compiled, Route::default(), Needs::default())?;
-                self.studios.push((estimator, studio, compiled));
+                let shadow_map_size = has_fine_shadows.then_some(FINE_SHADOWS);
+                let needs = Needs { shadow_map_size, ..Needs::default() };
+                let studio = Studio::open(&compiled, Route::default(), needs)?;
+                self.studios.push((kind, studio, compiled));
                 self.studios.len() - 1
             }
         };

@@ -12,13 +12,21 @@ pub struct Variant {
     pub fields: String,
     /// The kernel; `None` for the set's own.
     pub estimator: Option<Estimator>,
+    /// Whether shadow maps have four times as many texels.
+    pub has_fine_shadows: bool,
     /// Whether light goes below the surface.
     pub scatters: bool,
 }
 
 impl Variant {
     fn new(label: &str, fields: &str) -> Self {
-        Self { label: label.to_owned(), fields: fields.to_owned(), estimator: None, scatters: true }
+        Self {
+            label: label.to_owned(),
+            fields: fields.to_owned(),
+            estimator: None,
+            has_fine_shadows: false,
+            scatters: true,
+        }
     }
 
     /// The truth's own material.
@@ -45,6 +53,7 @@ impl Variant {
         vec![
             Self::own(),
             Self { estimator: Some(Estimator::Dense), ..Self::new("every pixel summed", "") },
+            Self { has_fine_shadows: true, ..Self::new("finer shadow maps", "") },
             Self::new("Lambert's angles", "diffuse: Lambert"),
             Self::new("diffused through", "transmission: (diffused: true)"),
             Self::new("profile's transmittance", "transmittance: Profile"),

@@ -8,6 +8,9 @@ use crate::camera::{Bounds, upright};
 /// grow without end.
 const LARGEST_HALF_ANGLE: f32 = 75.0 * std::f32::consts::PI / 180.0;
 
+/// How much larger than what is drawn a map is: nothing lies on its border, where a filter would reach beyond.
+const MARGIN: f32 = 1.02;
+
 /// The camera of a shadow map: square, orthographic or in perspective, depth 0 nearest the light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct ShadowCamera {
@@ -26,16 +29,30 @@ pub(crate) struct ShadowCamera {
 impl ShadowCamera {
     /// A box around `bounds`, for parallel rays.
     pub(super) fn parallel(direction: Vec3, bounds: &Bounds) -> Self {
-        let radius = bounds.radius;
-        let eye = Vec3::from(bounds.centre) - direction * radius;
-        Self { half_width: radius, far: 2.0 * radius, ..Self::at(eye, direction) }
+        let depth = MARGIN * bounds.reach(direction).max(1e-3 * bounds.radius);
+        let camera = Self::at(Vec3::from(bounds.centre) - direction * depth, direction);
+        let width = bounds.reach(camera.right).max(bounds.reach(camera.up));
+        Self { half_width: MARGIN * width.max(1e-3 * bounds.radius), far: 2.0 * depth, ..camera }
     }
 
     /// A pyramid around `bounds`, or as much of them as there is in one where the eye is within.
     pub(super) fn around(eye: Vec3, bounds: &Bounds) -> Self {
         let offset = Vec3::from(bounds.centre) - eye;
         let half_angle = (bounds.radius / offset.length()).min(1.0).asin();
-        Self::along(eye, offset.try_normalize().unwrap_or(Vec3::NEG_Y), half_angle, bounds)
+        let camera = Self::along(eye, offset.try_normalize().unwrap_or(Vec3::NEG_Y), half_angle, bounds);
+        let spread = camera.spread_of(bounds);
+        Self { spread: camera.spread.min(MARGIN * spread), ..camera }
+    }
+
+    /// Largest slope to a corner of the box; infinite where one is not before the camera.
+    fn spread_of(&self, bounds: &Bounds) -> f32 {
+        let slope = |corner: Vec3| {
+            let offset = corner - self.eye;
+            let across = offset.dot(self.right).abs().max(offset.dot(self.up).abs());
+            let before = offset.dot(self.forward);
+            if before > 0.0 { across / before } else { f32::INFINITY }
+        };
+        bounds.corners().map(slope).into_iter().fold(0.01, f32::max)
     }
 
     /// A pyramid about an axis.
@@ -114,16 +131,36 @@ mod tests {
 
     #[test]
     fn a_map_holds_the_bounds() {
-        let bounds = Bounds::new([1.0, 2.0, 3.0], 0.7);
+        let sphere = Bounds::new([1.0, 2.0, 3.0], 0.7);
+        let flat = Bounds::of_box([0.5, 1.0, 2.9], [1.5, 3.0, 3.1]);
         let directions = [Vec3::X, Vec3::Y, Vec3::NEG_Z, Vec3::ONE.normalize()];
-        for camera in [
-            ShadowCamera::parallel(Vec3::new(0.0, -0.6, 0.8), &bounds),
-            ShadowCamera::around(Vec3::new(1.0, 4.0, 2.0), &bounds),
-        ] {
-            for direction in directions {
-                let place = place(&camera, Vec3::from(bounds.centre) + 0.999 * bounds.radius * direction);
-                assert!(place.min_element() > -1e-3 && place.max_element() < 1.001, "{camera:?}: {place}");
+        for bounds in [sphere, flat] {
+            for camera in [
+                ShadowCamera::parallel(Vec3::new(0.0, -0.6, 0.8), &bounds),
+                ShadowCamera::parallel(Vec3::NEG_Y, &bounds),
+                ShadowCamera::around(Vec3::new(1.0, 6.0, 2.0), &bounds),
+            ] {
+                let on_sphere =
+                    directions.map(|direction| Vec3::from(bounds.centre) + bounds.radius * direction);
+                let points = if bounds == sphere { on_sphere.to_vec() } else { bounds.corners().to_vec() };
+                for point in points {
+                    let place = place(&camera, point);
+                    assert!(place.min_element() > 0.0 && place.max_element() < 1.0, "{camera:?}: {place}");
+                }
             }
         }
+    }
+
+    #[test]
+    fn a_box_has_finer_texels_than_the_sphere_around_it() {
+        let [minimum, maximum] = [[-0.1, -0.3, -0.1], [0.1, 0.3, 0.1]];
+        let tall = Bounds::of_box(minimum, maximum);
+        let sphere = Bounds::new(tall.centre, tall.radius);
+        let width = |bounds: &Bounds, direction| ShadowCamera::parallel(direction, bounds).half_width;
+        assert!(width(&tall, Vec3::NEG_Y) < 0.35 * width(&sphere, Vec3::NEG_Y));
+        assert!(width(&tall, Vec3::X) < 0.95 * width(&sphere, Vec3::X));
+        // A tilted one is no larger than the sphere's.
+        let tilted = Vec3::new(0.5, -0.6, 0.3).normalize();
+        assert!(width(&tall, tilted) <= width(&sphere, tilted));
     }
 }

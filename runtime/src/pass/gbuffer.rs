@@ -256,6 +256,8 @@ impl GBufferPass {
             ambient_irradiance: view.ambient_irradiance,
             transmission: view.transmission,
             environment: environment.uniform(view.environment_intensity, view.environment_turn_radians),
+            millimetres_per_world_unit: view.millimetres_per_world_unit,
+            ..bytemuck::Zeroable::zeroed()
         };
         queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&frame));
         self.size = view.size;

@@ -16,7 +16,7 @@ use super::uniform_buffer;
 
 const NAME: &str = "ShadowPass";
 
-/// Texels per side of a shadow map: 0.2 mm on a head half a metre tall.
+/// Texels per side of a shadow map where the caller does not say.
 const SHADOW_MAP_SIZE: u32 = 2048;
 
 /// How a [`ShadowPass`] is made.
@@ -24,6 +24,8 @@ const SHADOW_MAP_SIZE: u32 = 2048;
 pub struct ShadowDescriptor<'a> {
     /// What the labels of its objects begin with; `None`, the default, for `ShadowPass`.
     pub label: Option<&'a str>,
+    /// Texels per side of a map, kept within 1 and the device's limit; by default 2048, 0.2 mm on a head half a metre tall.
+    pub map_size: Option<u32>,
     /// Where compiled pipelines are kept; by default nowhere.
     pub pipeline_cache: Option<&'a wgpu::PipelineCache>,
     /// Where the pass writes its times; by default nowhere.
@@ -93,11 +95,13 @@ impl ShadowPass {
             multiview_mask: None,
             cache: descriptor.pipeline_cache,
         });
+        let largest = device.limits().max_texture_dimension_2d;
+        let map_size = descriptor.map_size.unwrap_or(SHADOW_MAP_SIZE).clamp(1, largest);
         let texture = device.create_texture(&wgpu::TextureDescriptor {
             label: Some(&label.of("maps")),
             size: wgpu::Extent3d {
-                width: SHADOW_MAP_SIZE,
-                height: SHADOW_MAP_SIZE,
+                width: map_size,
+                height: map_size,
                 depth_or_array_layers: SHADOW_MAPS as u32,
             },
             mip_level_count: 1,
@@ -126,7 +130,7 @@ impl ShadowPass {
 
     /// Texels per side of a map.
     pub fn map_size(&self) -> u32 {
-        SHADOW_MAP_SIZE
+        self.maps.texture().width()
     }
 
     /// Uploads the projections of the lights that have a map.

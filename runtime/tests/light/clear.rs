@@ -10,7 +10,7 @@ use subsurface_runtime::{
 use crate::gpu::Gpu;
 use crate::scene::{MIDDLE, Mesh, SIZE, Scene, block, medium, quad, sphere, tilted};
 
-const BOUNDS: Bounds = Bounds { centre: [0.0; 3], radius: 0.1 };
+const BOUNDS: Bounds = Bounds::new([0.0; 3], 0.1);
 
 /// Absorption per mm.
 const ABSORPTION: [f32; 3] = [0.01, 0.1, 0.5];

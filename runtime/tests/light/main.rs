@@ -5,6 +5,7 @@
 mod albedo_mix;
 mod angles;
 mod clear;
+mod curvature;
 mod energy;
 #[path = "../gpu/mod.rs"]
 mod gpu;

@@ -11,7 +11,7 @@ use subsurface_runtime::{
 use crate::gpu::Gpu;
 use crate::scene::{MEAN_FREE_PATH_MM, SIZE, SURFACE_ALBEDO, Scene, block, medium, quad, tilted};
 
-const BOUNDS: Bounds = Bounds { centre: [0.0; 3], radius: 0.25 };
+const BOUNDS: Bounds = Bounds::new([0.0; 3], 0.25);
 
 /// A texture of one value in red and green.
 fn constant(code: u8) -> [u8; 16] {
