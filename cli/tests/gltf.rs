@@ -283,6 +283,16 @@ fn a_volume_is_as_thick_as_its_node_is_large() {
 }
 
 #[test]
+fn triangles_are_wound_as_their_normals_say() {
+    let mut file = File::new();
+    file.attribute("POSITION", &TRIANGLE).attribute("NORMAL", &NORMALS).indices(5121, vec![0, 2, 1], 3);
+    let loaded = file.load().unwrap();
+    bless("wound_against_normals", &warnings(&loaded));
+    let mesh = mesh(&loaded);
+    assert_eq!((&mesh.indices[..], mesh.normals[0]), (&[0, 1, 2][..], [0.0, 0.0, 1.0]));
+}
+
+#[test]
 fn what_transmits_is_clear() {
     let mut file = File::triangle();
     file.set("/nodes/0/scale", json!([2.0, 2.0, 2.0]));

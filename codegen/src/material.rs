@@ -3,8 +3,9 @@
 use std::collections::BTreeMap;
 
 use subsurface_kernel::constants::{
-    COUPLING_ENTRY, COUPLING_FULL, COUPLING_NONE, DIFFUSE_DISNEY, DIFFUSE_EVERYWHERE, DIFFUSE_HAPKE,
-    DIFFUSE_LAMBERT, DIFFUSE_LOMMEL_SEELIGER, DIFFUSE_OREN_NAYAR, DIFFUSE_SEARCHLIGHT, DIFFUSE_SHIRLEY,
+    COUPLING_ENTRY, COUPLING_FULL, COUPLING_NONE, DIFFUSE_DISNEY, DIFFUSE_EVERYWHERE,
+    DIFFUSE_HANRAHAN_KRUEGER, DIFFUSE_HAPKE, DIFFUSE_LAMBERT, DIFFUSE_LOMMEL_SEELIGER, DIFFUSE_OREN_NAYAR,
+    DIFFUSE_SEARCHLIGHT, DIFFUSE_SHIRLEY,
 };
 use subsurface_profile::single_scattering_albedo::{
     Entry, diffuse_per_mean_free_path, from_surface_albedo_below,
@@ -159,7 +160,10 @@ pub enum DiffuseLobe {
     /// As below a mirror of the material's reflectance, Real-Time Rendering 4, eq. 9.64 (Shirley et al. 1997).
     Shirley,
     /// As of light that is scattered once (Lommel 1889, Seeliger 1887), its mean that of the surface albedo.
-    LommelSeeliger,
+    LommelSeeliger {
+        /// Whether cosines are those below the boundary: f(μ_l′, μ_v′)/η².
+        refracted: bool,
+    },
     /// As of dust (Hapke 1981).
     Hapke {
         /// B₀, by how much light that goes straight back is brighter, 0 to 1.
@@ -167,6 +171,13 @@ pub enum DiffuseLobe {
         /// Half the width of that, as the tangent of half an angle, above 0.
         opposition_width: f64,
         /// Mean cosine of the angle at which a grain scatters, −0.95 to 0.95.
+        anisotropy: f64,
+        /// Whether cosines are those below the boundary.
+        refracted: bool,
+    },
+    /// As of a layer below a boundary that scatters light once (Hanrahan and Krueger 1993).
+    HanrahanKrueger {
+        /// Mean cosine of the angle at which it scatters, −0.95 to 0.95.
         anisotropy: f64,
     },
     /// As of a rough surface of Lambert's facets (Oren and Nayar 1994).
@@ -183,8 +194,17 @@ pub enum DiffuseLobe {
 
 impl DiffuseLobe {
     /// The words in RON.
-    pub(crate) const WORDS: [&'static str; 8] =
-        ["Lambert", "Coupled", "Chandrasekhar", "Shirley", "LommelSeeliger", "Hapke", "OrenNayar", "Disney"];
+    pub(crate) const WORDS: [&'static str; 9] = [
+        "Lambert",
+        "Coupled",
+        "Chandrasekhar",
+        "Shirley",
+        "LommelSeeliger",
+        "Hapke",
+        "HanrahanKrueger",
+        "OrenNayar",
+        "Disney",
+    ];
 
     /// The word in RON.
     #[must_use]
@@ -193,8 +213,9 @@ impl DiffuseLobe {
             Self::Lambert => "Lambert",
             Self::Chandrasekhar(_) => "Chandrasekhar",
             Self::Shirley => "Shirley",
-            Self::LommelSeeliger => "LommelSeeliger",
+            Self::LommelSeeliger { .. } => "LommelSeeliger",
             Self::Hapke { .. } => "Hapke",
+            Self::HanrahanKrueger { .. } => "HanrahanKrueger",
             Self::OrenNayar { .. } => "OrenNayar",
             Self::Disney { .. } => "Disney",
         }
@@ -208,12 +229,15 @@ impl DiffuseLobe {
     /// Its numbers, as the shaders take them.
     pub(crate) const fn shape(self) -> [f64; 3] {
         match self {
-            Self::Hapke { opposition, opposition_width, anisotropy } => {
-                [opposition, opposition_width, anisotropy]
+            // The sign of the second says whether cosines are refracted.
+            Self::LommelSeeliger { refracted } => [0.0, if refracted { -1.0 } else { 1.0 }, 0.0],
+            Self::Hapke { opposition, opposition_width, anisotropy, refracted } => {
+                [opposition, if refracted { -opposition_width } else { opposition_width }, anisotropy]
             }
+            Self::HanrahanKrueger { anisotropy } => [0.0, -1.0, anisotropy],
             Self::OrenNayar { sigma } => [sigma, 0.0, 0.0],
             Self::Disney { subsurface } => [subsurface, 0.0, 0.0],
-            Self::Lambert | Self::Chandrasekhar(_) | Self::Shirley | Self::LommelSeeliger => [0.0; 3],
+            Self::Lambert | Self::Chandrasekhar(_) | Self::Shirley => [0.0; 3],
         }
     }
 
@@ -229,8 +253,9 @@ impl DiffuseLobe {
             Self::Chandrasekhar(Entry::Searchlight) => DIFFUSE_SEARCHLIGHT,
             Self::Chandrasekhar(Entry::Diffuse) => DIFFUSE_EVERYWHERE,
             Self::Shirley => DIFFUSE_SHIRLEY,
-            Self::LommelSeeliger => DIFFUSE_LOMMEL_SEELIGER,
+            Self::LommelSeeliger { .. } => DIFFUSE_LOMMEL_SEELIGER,
             Self::Hapke { .. } => DIFFUSE_HAPKE,
+            Self::HanrahanKrueger { .. } => DIFFUSE_HANRAHAN_KRUEGER,
             Self::OrenNayar { .. } => DIFFUSE_OREN_NAYAR,
             Self::Disney { .. } => DIFFUSE_DISNEY,
         }

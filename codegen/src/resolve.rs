@@ -85,7 +85,7 @@ struct Inherited<'a> {
     reflectance_at_normal: &'a Given<Spanned<f64>>,
     roughness: &'a Given<Spanned<f64>>,
     coupling: &'a Given<Coupling>,
-    second_lobe: &'a Given<SecondLobe>,
+    second_lobe: &'a Given<Option<SecondLobe>>,
     diffuse: &'a Given<Spanned<DiffuseGiven>>,
     transmission_strength: &'a Given<Spanned<f64>>,
     transmission_diffused: &'a Given<bool>,
@@ -361,7 +361,8 @@ impl Resolution {
             || numbers.iter().any(|field| field.is_bad());
         let usable = self.check_length(&profile, &length, &surface_albedo, profile_name)
             && self.check_profile(&profile, &length, &surface_albedo, profile_name);
-        let fits = self.check_thin(inherited.transmittance.value(), inherited.thin_thickness_mm.value());
+        let thin = inherited.thin_thickness_mm.value().filter(|thickness| thickness.value > 0.0);
+        let fits = self.check_thin(inherited.transmittance.value(), thin);
         (usable && fits && inherited.complete && !optional_is_bad).then_some(Draft {
             name: &material.name.value,
             profile,
@@ -373,13 +374,13 @@ impl Resolution {
             reflectance_at_normal: inherited.reflectance_at_normal.value(),
             roughness: inherited.roughness.value(),
             coupling,
-            second_lobe: inherited.second_lobe.value().copied(),
+            second_lobe: inherited.second_lobe.value().copied().flatten(),
             diffuse,
             diffuse_given: inherited.diffuse.value(),
             transmission_strength: inherited.transmission_strength.value(),
             transmission_diffused: inherited.transmission_diffused.value().copied().unwrap_or_default(),
             transmittance: inherited.transmittance.value(),
-            thin_thickness_mm: inherited.thin_thickness_mm.value(),
+            thin_thickness_mm: thin,
         })
     }
 

@@ -178,3 +178,16 @@ fn clear_materials_are_constants_of_their_own() {
     let manifest = &compilation.manifest;
     assert!(manifest.contains("\"clear_materials\"") && manifest.contains("\"green_bottle\""));
 }
+
+#[test]
+fn a_material_may_take_away_what_its_base_has() {
+    let base = "Material(profile: \"two_exponential_dipole_searchlight\", mean_free_path_mm: (1, 1, 1), \
+                surface_albedo: (0.5, 0.5, 0.5), thin: (thickness_mm: 0.2), \
+                specular: (second: (roughness: 0.2, weight: 0.3)))";
+    let without = "Material(base: \"leaf\", thin: None, specular: (second: None))";
+    let files = [("leaf.ron", base), ("stem.ron", without)];
+    let compilation = Compiler::from_memory(files).compile().expect("the set is good");
+    let [leaf, stem] = ["leaf", "stem"].map(|name| compilation.set.get(name).expect("it is there"));
+    assert!(leaf.second_lobe.is_some() && leaf.thin_thickness_mm == Some(0.2));
+    assert!(stem.second_lobe.is_none() && stem.thin_thickness_mm.is_none());
+}

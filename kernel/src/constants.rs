@@ -84,6 +84,9 @@ constants! {
     /// `diffuse` of a lobe of Burley's, as Disney has it.
     DIFFUSE_DISNEY: U32(u32) = 7;
 
+    /// `diffuse` of a layer below a boundary that scatters light once.
+    DIFFUSE_HANRAHAN_KRUEGER: U32(u32) = 8;
+
     /// Share of the light that counts as all of it where the reach of a profile is asked for.
     FILTER_QUANTILE: F32(f64) = 0.997;
 

@@ -43,6 +43,8 @@ const OPTIONS: [&[&str]; 9] = [
         "diffuse: Chandrasekhar(entry: Diffuse)",
         "diffuse: LommelSeeliger",
         "diffuse: Hapke(opposition: 1, opposition_width: 0.05, anisotropy: 0.9)",
+        "diffuse: Hapke(refracted: true)",
+        "diffuse: HanrahanKrueger(anisotropy: -0.9)",
         "diffuse: OrenNayar(sigma: 1)",
         "diffuse: Disney(subsurface: 0.5)",
     ],

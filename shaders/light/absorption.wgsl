@@ -10,8 +10,8 @@ fn shell_way_mm(thickness_mm: f32, cosine: f32) -> f32 {
     return thickness_mm / max(0.001, cosine);
 }
 
-/// Shares that two faces of a wall send back and let through, each of which reflects `fresnel`, with all that goes to and
-/// fro between them: R = 2F/(1 + F), T = 1 − R.
+/// Share that two faces of a wall send back, each of which reflects `fresnel`, with all that goes to and fro between them:
+/// R = 2F/(1 + F).
 fn wall_reflectance(fresnel: f32) -> f32 {
     return 2.0 * fresnel / (1.0 + fresnel);
 }

@@ -1,4 +1,4 @@
-// uses: kernel/constants, lib/{angle, half_space}
+// uses: kernel/constants, lib/{angle, half_space, medium_angles}
 
 // Diffuse BRDFs f as f π/A: by how much light that enters at one angle and leaves at another differs from Lambert's.
 // Each stands in the irradiance, so that this depends on the viewer.
@@ -20,21 +20,30 @@ struct DiffuseLobe {
 fn diffuse_lobe(lobe: DiffuseLobe, normal: vec3f, light: vec3f, view: vec3f) -> vec3f {
     let entering = max(dot(normal, light), 0.0);
     let leaving = max(dot(normal, view), LEAST_VIEW_COSINE);
+    let towards = dot(light, view);
     if lobe.diffuse == DIFFUSE_SHIRLEY {
         return vec3f(shirley_lobe(lobe.reflectance_at_normal, entering, leaving));
     }
-    if lobe.diffuse == DIFFUSE_LOMMEL_SEELIGER {
-        return vec3f(lommel_seeliger_lobe(entering, leaving));
-    }
-    if lobe.diffuse == DIFFUSE_HAPKE {
-        return hapke_lobe(lobe.shape, lobe.surface_albedo, entering, leaving, dot(light, view));
-    }
     if lobe.diffuse == DIFFUSE_OREN_NAYAR {
-        return vec3f(oren_nayar_lobe(lobe.shape.x, entering, leaving, dot(light, view)));
+        return vec3f(oren_nayar_lobe(lobe.shape.x, entering, leaving, towards));
     }
     if lobe.diffuse == DIFFUSE_DISNEY {
         let half_cosine = dot(light, normalize(light + view));
         return vec3f(disney_lobe(lobe.shape.x, lobe.roughness, entering, leaving, half_cosine));
+    }
+    // Below a boundary f(μ_l′, μ_v′)/η² of refracted cosines (Hanrahan and Krueger 1993): its transmittances are those
+    // of the coupling, and what it reflects inside is lost. A sign among its numbers says whether a lobe is there.
+    let is_below = lobe.diffuse == DIFFUSE_HANRAHAN_KRUEGER || lobe.shape.y < 0.0;
+    let inverse_square = select(1.0, inverse_square_index(lobe.reflectance_at_normal), is_below);
+    let inside = vec2f(refracted_cosine(entering, inverse_square), refracted_cosine(leaving, inverse_square));
+    let towards_inside = inside.x * inside.y + inverse_square * (towards - entering * leaving);
+    if lobe.diffuse == DIFFUSE_LOMMEL_SEELIGER {
+        return vec3f(inverse_square * lommel_seeliger_lobe(inside.x, inside.y));
+    }
+    if lobe.diffuse == DIFFUSE_HAPKE || lobe.diffuse == DIFFUSE_HANRAHAN_KRUEGER {
+        let is_once = lobe.diffuse == DIFFUSE_HANRAHAN_KRUEGER;
+        let value = hapke_lobe(lobe.shape, lobe.surface_albedo, inside.x, inside.y, towards_inside, is_once);
+        return inverse_square * value;
     }
     return vec3f(1.0);
 }
@@ -77,20 +86,28 @@ fn lommel_seeliger_lobe(entering: f32, leaving: f32) -> f32 {
 }
 
 /// α/(4 A (μ_l + μ_v)) [(1 + B) P + H(μ_l) H(μ_v) − 1], B = B₀/(1 + tan(g/2)/h) (Hapke 1981), with the half-space's own
-/// H. `towards` is cos g.
-fn hapke_lobe(shape: vec3f, surface_albedo: vec3f, entering: f32, leaving: f32, towards: f32) -> vec3f {
+/// H. `towards` is cos g. Of light that was scattered once without H H − 1.
+fn hapke_lobe(
+    shape: vec3f,
+    surface_albedo: vec3f,
+    entering: f32,
+    leaving: f32,
+    towards: f32,
+    is_once: bool,
+) -> vec3f {
     let root = diffuse_half_space_roots(surface_albedo);
     let h = half_space_h(half_space_u(entering, root), root) * half_space_h(half_space_u(leaving, root), root);
     // tan²(g/2) = (1 − cos g)/(1 + cos g).
     let tangent = sqrt(max(1.0 - towards, 0.0) / max(1.0 + towards, 1e-6));
-    let surge = 1.0 + shape.x / (1.0 + tangent / shape.y);
+    let surge = 1.0 + shape.x / (1.0 + tangent / abs(shape.y));
     // Henyey and Greenstein; the light turns by π − g.
     let g = shape.z;
     let below = 1.0 + g * g + 2.0 * g * towards;
     let phase = (1.0 - g * g) / (below * sqrt(below));
     // α/A, which has an end at A = 0.
     let per_albedo = (1.0 + root) / relative_diffuse_albedo(root);
-    return per_albedo / (4.0 * max(entering + leaving, LEAST_COSINE)) * (surge * phase + h - 1.0);
+    let often = select(h - 1.0, vec3f(0.0), is_once);
+    return per_albedo / (4.0 * max(entering + leaving, LEAST_COSINE)) * (surge * phase + often);
 }
 
 /// a + b (cos Δφ)⁺ sin α tan β, the qualitative model of Oren and Nayar 1994; `towards` is l·v.

@@ -17,7 +17,7 @@ pub(super) fn check(material: &Draft<'_>, diagnostics: &mut Vec<Diagnostic>) {
                 .label(place.span.clone(), "up to 1.46 times the surface albedo at grazing angles")
                 .help("its sources have it so; `Chandrasekhar` or `Coupled` conserve energy"),
         ),
-        DiffuseLobe::LommelSeeliger => {
+        DiffuseLobe::LommelSeeliger { .. } => {
             let whitest = material.surface_albedo.values.into_iter().fold(0.0, f64::max);
             if whitest > WHITEST_LOMMEL_SEELIGER {
                 diagnostics.push(

@@ -74,9 +74,11 @@ pub(super) fn decode_diffuse(decoder: &mut Decoder, node: &Node<'_>) -> Option<S
     let (known, example): (&[&str], &str) = match name.text {
         "Chandrasekhar" => (&["entry"], "Chandrasekhar(entry: Searchlight)"),
         "Hapke" => (
-            &["opposition", "opposition_width", "anisotropy"],
+            &["opposition", "opposition_width", "anisotropy", "refracted"],
             "Hapke(opposition: 1.0, opposition_width: 0.06, anisotropy: -0.3)",
         ),
+        "HanrahanKrueger" => (&["anisotropy"], "HanrahanKrueger(anisotropy: 0.0)"),
+        "LommelSeeliger" => (&["refracted"], "LommelSeeliger(refracted: true)"),
         "OrenNayar" => (&["sigma"], "OrenNayar(sigma: 0.5)"),
         "Disney" => (&["subsurface"], "Disney(subsurface: 0.0)"),
         word if DiffuseLobe::WORDS.contains(&word) => (&[], word),
@@ -103,11 +105,15 @@ pub(super) fn decode_diffuse(decoder: &mut Decoder, node: &Node<'_>) -> Option<S
         "Coupled" => return spanned(DiffuseGiven::Coupled),
         "Chandrasekhar" => return spanned(DiffuseGiven::Chandrasekhar(numbers.entry()?)),
         "Shirley" => DiffuseLobe::Shirley,
-        "LommelSeeliger" => DiffuseLobe::LommelSeeliger,
+        "LommelSeeliger" => DiffuseLobe::LommelSeeliger { refracted: numbers.truth("refracted") },
         "Hapke" => DiffuseLobe::Hapke {
             opposition: numbers.of("opposition", &OPPOSITION, 1.0),
             opposition_width: numbers.of("opposition_width", &OPPOSITION_WIDTH, 0.06),
             // Nearer to ±1 the phase function has no end.
+            anisotropy: numbers.of("anisotropy", &GRAIN_ANISOTROPY, 0.0).clamp(-0.95, 0.95),
+            refracted: numbers.truth("refracted"),
+        },
+        "HanrahanKrueger" => DiffuseLobe::HanrahanKrueger {
             anisotropy: numbers.of("anisotropy", &GRAIN_ANISOTROPY, 0.0).clamp(-0.95, 0.95),
         },
         "OrenNayar" => DiffuseLobe::OrenNayar { sigma: numbers.of("sigma", &SIGMA, 0.3) },
@@ -130,6 +136,14 @@ impl Numbers<'_, '_, '_> {
         let given = fields.optional(name, |node| decoder.number(node, name, quantity));
         *is_good &= !given.is_bad();
         given.value().copied().unwrap_or(default)
+    }
+
+    /// `true` or `false`; `false` where the file does not say.
+    fn truth(&mut self, name: &str) -> bool {
+        let Self { decoder, fields, is_good } = self;
+        let given = fields.optional(name, |node| decoder.truth(node, name));
+        *is_good &= !given.is_bad();
+        given.value().copied().unwrap_or_default()
     }
 
     /// The entry, if there is one; `None` where it is wrong.

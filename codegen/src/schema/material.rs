@@ -21,6 +21,9 @@ use crate::source::{FileId, Span, Spanned};
 use crate::suggestion::{closest, shortened};
 use crate::syntax::{Document, Entry, Name, Node, Shape};
 
+/// What a material writes that has not what its base has.
+const NONE: &str = "None";
+
 /// Version of the grammar of material files that this crate reads.
 pub(crate) const SCHEMA_VERSION: u32 = 1;
 
@@ -43,11 +46,13 @@ pub(crate) struct MaterialFile {
     pub(crate) reflectance_at_normal: Given<Spanned<f64>>,
     pub(crate) roughness: Given<Spanned<f64>>,
     pub(crate) coupling: Given<Coupling>,
-    pub(crate) second_lobe: Given<SecondLobe>,
+    /// `None` within where the file says that there is none.
+    pub(crate) second_lobe: Given<Option<SecondLobe>>,
     pub(crate) diffuse: Given<Spanned<DiffuseGiven>>,
     pub(crate) transmission_strength: Given<Spanned<f64>>,
     pub(crate) transmission_diffused: Given<bool>,
     pub(crate) transmittance: Given<Spanned<Transmittance>>,
+    /// 0 where the file says that it is no sheet.
     pub(crate) thin_thickness_mm: Given<Spanned<f64>>,
 }
 
@@ -267,7 +272,7 @@ struct SpecularGiven {
     reflectance_at_normal: Given<Spanned<f64>>,
     roughness: Given<Spanned<f64>>,
     coupling: Given<Coupling>,
-    second_lobe: Given<SecondLobe>,
+    second_lobe: Given<Option<SecondLobe>>,
 }
 
 fn decode_specular(decoder: &mut Decoder, fields: &Fields<'_>) -> SpecularGiven {
@@ -308,7 +313,9 @@ fn decode_specular(decoder: &mut Decoder, fields: &Fields<'_>) -> SpecularGiven 
         let word = choice(decoder, node, "coupling", &Coupling::ALL.map(Coupling::name))?;
         Coupling::ALL.into_iter().find(|coupling| coupling.name() == word)
     });
-    let second_lobe = inner.optional("second", |node| decode_second_lobe(decoder, node));
+    let second_lobe = inner.optional("second", |node| {
+        if node.text() == NONE { Some(None) } else { decode_second_lobe(decoder, node).map(Some) }
+    });
     SpecularGiven { reflectance_at_normal, roughness, coupling, second_lobe }
 }
 
@@ -354,6 +361,9 @@ fn decode_transmission(decoder: &mut Decoder, fields: &Fields<'_>) -> Given<bool
 
 fn decode_thin(decoder: &mut Decoder, fields: &Fields<'_>) -> Given<Spanned<f64>> {
     fields.optional("thin", |node| {
+        if node.text() == NONE {
+            return Some(Spanned::new(0.0, node.span()));
+        }
         let Shape::Struct(None, entries) = node.shape() else {
             decoder.wrong_type(node, "thin", "a named number", "write `thin: (thickness_mm: 0.25)`");
             return None;

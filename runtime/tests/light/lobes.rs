@@ -1,5 +1,7 @@
 //! Diffuse lobes that are not the medium's own.
 
+use subsurface_profile::single_scattering_albedo::{Entry, from_surface_albedo};
+
 use crate::gpu::Gpu;
 use crate::scene::{SURFACE_ALBEDO, Scene, beside, medium, tilted};
 
@@ -105,5 +107,49 @@ fn every_lobe_is_reciprocal_and_has_its_mean() {
         let found = mean(fields);
         // Twelve directions stand for all, and four of view.
         assert!((found - 1.0).abs() < 0.02, "{fields}: {found}");
+    }
+}
+
+#[test]
+fn a_layer_below_a_boundary_has_refracted_angles() {
+    let gpu = Gpu::open();
+    const INDEX: f64 = 1.4;
+    let reflectance = ((INDEX - 1.0) / (INDEX + 1.0)).powi(2);
+    let seen = |fields: &str, index: f64, view: f64, light: f64| {
+        let reflectance = if index > 1.0 { reflectance } else { 0.0 };
+        // What the boundary lets in and out is the coupling's.
+        let specular = format!("specular: (reflectance_at_normal: {reflectance:?}, coupling: None)");
+        let mut scene = Scene::new(&gpu, &medium(&format!("{specular}, {fields}")), &[tilted(view)]);
+        let [diffuse, _] = scene.radiance(Some(beside(view, light)));
+        [0, 1, 2].map(|channel: usize| diffuse[channel] / SURFACE_ALBEDO[channel] / light)
+    };
+    let below = |cosine: f64| (1.0 - (1.0 - cosine * cosine) / (INDEX * INDEX)).sqrt();
+    for (view, light) in [(1.0, 0.8), (0.5, 0.3), (0.3, 0.9)] {
+        let cosines = below(view) + below(light);
+        let layer = seen("diffuse: HanrahanKrueger", INDEX, view, light);
+        for (channel, found) in layer.into_iter().enumerate() {
+            let alpha = from_surface_albedo(Entry::Diffuse, SURFACE_ALBEDO[channel]);
+            let expected = alpha / (4.0 * SURFACE_ALBEDO[channel] * cosines * INDEX * INDEX);
+            // Half floats, and the fit of α.
+            assert!((found / expected - 1.0).abs() < 5e-3, "{view}, {light}: {found}, not {expected}");
+        }
+        let dust = seen("diffuse: LommelSeeliger(refracted: true)", INDEX, view, light)[0];
+        let expected = 1.0 / (8.0 / 3.0 * (1.0 - 2.0_f64.ln()) * cosines * INDEX * INDEX);
+        assert!((dust / expected - 1.0).abs() < 3e-3, "{view}, {light}: {dust}, not {expected}");
+        // Without a boundary nothing is refracted, and every lobe is reciprocal below one.
+        for [plain, refracted] in [
+            ["LommelSeeliger", "LommelSeeliger(refracted: true)"],
+            [
+                "Hapke(opposition: 0.7, anisotropy: -0.4)",
+                "Hapke(opposition: 0.7, anisotropy: -0.4, refracted: true)",
+            ],
+        ] {
+            let [plain, refracted] = [plain, refracted].map(|lobe| format!("diffuse: {lobe}"));
+            let [one, other] = [&plain, &refracted].map(|fields| seen(fields, 1.0, view, light)[1]);
+            assert!((one / other - 1.0).abs() < 2e-3, "{refracted}: {one}, {other}");
+            let [there, back] =
+                [(view, light), (light, view)].map(|(one, other)| seen(&refracted, INDEX, one, other)[2]);
+            assert!((there / back - 1.0).abs() < 4e-3, "{refracted}: {there}, {back}");
+        }
     }
 }

@@ -34,6 +34,10 @@ pub(super) fn read(
             if count > 0 {
                 warnings.push(GltfWarning::NormalsNotFinite { place: place.clone(), count });
             }
+            if is_wound_against_normals(&mesh) {
+                warnings.push(GltfWarning::WoundAgainstNormals { place: place.clone() });
+                turn_over(&mut mesh.indices);
+            }
         }
         None => {
             warnings.push(GltfWarning::NoNormals { place: place.clone() });
@@ -100,11 +104,28 @@ fn triangles(
     };
     // A mirrored mesh would be inside out.
     if world_from_node.determinant() < 0.0 {
-        for triangle in indices.chunks_exact_mut(3) {
-            triangle.swap(1, 2);
-        }
+        turn_over(&mut indices);
     }
     Ok(indices)
+}
+
+/// Winds triangles the other way round.
+fn turn_over(indices: &mut [u32]) {
+    for triangle in indices.chunks_exact_mut(3) {
+        triangle.swap(1, 2);
+    }
+}
+
+/// Whether more of the area is wound against its normals than with them.
+fn is_wound_against_normals(mesh: &Mesh) -> bool {
+    let agreement = |triangle: &[u32]| {
+        let [a, b, c] = corners(triangle, &mesh.positions);
+        let twice_area = (b - a).as_dvec3().cross((c - a).as_dvec3());
+        let [p, q, r] = [0, 1, 2].map(|k: usize| Vec3::from(mesh.normals[triangle[k] as usize]).as_dvec3());
+        let along = twice_area.dot(p + q + r);
+        twice_area.length() * along.signum() * f64::from(u8::from(along != 0.0))
+    };
+    mesh.indices.chunks_exact(3).map(agreement).sum::<f64>() < 0.0
 }
 
 /// Leaves out triangles without area; returns how many.

@@ -13,6 +13,7 @@ pub enum GltfWarning {
     NoIndices { place: Place, vertex_count: usize },
     DegenerateTriangles { place: Place, count: usize, of: usize },
     NoTextureCoordinates { place: Place },
+    WoundAgainstNormals { place: Place },
     LittleTransmission { place: Place },
     PartlyClear { place: Place },
     TintedVolume { place: Place },
@@ -33,6 +34,9 @@ impl std::fmt::Display for GltfWarning {
             }
             Self::NoTextureCoordinates { place } => {
                 write!(f, "{place} has a texture but no texture coordinates")
+            }
+            Self::WoundAgainstNormals { place } => {
+                write!(f, "{place} is wound against its normals: its triangles are turned around")
             }
             Self::LittleTransmission { place } => {
                 write!(
@@ -66,6 +70,9 @@ impl Explain for GltfWarning {
             Self::DegenerateTriangles { .. } => "merge doubled vertices to be rid of this",
             Self::NoTextureCoordinates { .. } => {
                 "the whole surface takes the colour of the texture's upper left pixel; unwrap the mesh"
+            }
+            Self::WoundAgainstNormals { .. } => {
+                "front faces wind anticlockwise; flip the faces or recalculate the normals before the export"
             }
             Self::LittleTransmission { .. } => "set its `transmissionFactor` to 0 or 1",
             Self::PartlyClear { .. } => {
