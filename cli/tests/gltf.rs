@@ -300,7 +300,7 @@ fn what_transmits_is_clear() {
     let transmission = |factor: f64| json!({"transmissionFactor": factor});
     let volume =
         json!({"thicknessFactor": 0.01, "attenuationColor": [0.5, 1, 1], "attenuationDistance": 0.003});
-    // A volume: half of the red after 3 mm of the mesh, which are 6 in the world.
+    // A volume: half of the red after 3 mm of the world, whatever the node's scale.
     file.set(
         "/materials",
         json!([{
@@ -315,7 +315,7 @@ fn what_transmits_is_clear() {
     let loaded = file.load().unwrap();
     assert_eq!(warnings(&loaded), "");
     let clear = loaded.scene.objects[0].surface.clear.unwrap();
-    assert!((clear.absorption_per_mm[0] - 0.5_f32.recip().ln() / 6.0).abs() < 1e-6, "{clear:?}");
+    assert!((clear.absorption_per_mm[0] - 0.5_f32.recip().ln() / 3.0).abs() < 1e-6, "{clear:?}");
     assert_eq!(clear.absorption_per_mm[1..], [0.0; 2]);
     assert_eq!((clear.refractive_index, clear.roughness, clear.shell_thickness_mm), (1.33, 0.25, None));
     // Without a volume a wall, coloured by its base colour.

@@ -21,6 +21,9 @@ impl ClearMaterial {
     /// Least colour that has a finite absorption.
     pub const LEAST_COLOUR: f64 = 1e-6;
 
+    /// Largest absorption coefficient of a file, per mm.
+    pub const MOST_ABSORPTION: f64 = 1e12;
+
     /// σ = −ln(max(c, 10⁻⁶))/d per mm of what lets through a colour `c` at a distance of `d` mm (Akenine-Möller et al.
     /// 2018, "Real-Time Rendering", eq. 14.23).
     #[must_use]

@@ -198,8 +198,14 @@ fn load_set(reader: &mut Reader, dir: &Path) -> Resolution {
     let resolution = resolve_set(reader, &paths, &dir.join(PROFILES));
     if !resolution.has_materials {
         let shown = if dir == Path::new("") { "the set".to_owned() } else { format!("`{}`", dir.display()) };
+        // Errors in what is clear say more.
+        let has_errors = reader.report.errors().count() > before;
+        if has_errors && resolution.has_clear {
+            return resolution;
+        }
+        let what = if resolution.has_clear { "materials that scatter" } else { "materials" };
         reader.report.push(
-            Diagnostic::error(format!("{shown} has no materials"))
+            Diagnostic::error(format!("{shown} has no {what}"))
                 .help("add a file `NAME.ron`, one for each material")
                 .help(
                     "for example `Material(profile: \"two_exponential_dipole_searchlight\", \

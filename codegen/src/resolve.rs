@@ -68,6 +68,8 @@ pub(crate) struct Resolution {
     pub(crate) quality: Option<QualityRequest>,
     /// Whether there is a file for a material, good or bad.
     pub(crate) has_materials: bool,
+    /// Whether there is a file for a clear one.
+    pub(crate) has_clear: bool,
     pub(crate) diagnostics: Vec<Diagnostic>,
     /// The files that each file of a material leans on: bases and profiles.
     pub(crate) dependencies: BTreeMap<FileId, BTreeSet<FileId>>,
@@ -99,7 +101,8 @@ impl Resolution {
     /// Resolves all names among `files`.
     pub(crate) fn of(files: &Files) -> Self {
         let has_materials = !(files.materials.is_empty() && files.broken_materials.is_empty());
-        let mut resolution = Self { has_materials, ..Self::default() };
+        let has_clear = !files.clear.is_empty();
+        let mut resolution = Self { has_materials, has_clear, ..Self::default() };
         let by_name = resolution.name_materials(files);
         let alias_errors = check_aliases(files);
         resolution.check_bases(files, &by_name);

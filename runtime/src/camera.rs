@@ -26,7 +26,7 @@ impl Default for Camera {
     }
 }
 
-/// A sphere and a box around all that is drawn: shadow maps and clip planes are fitted to both.
+/// A sphere and a box around all that is drawn: shadow maps are fitted to both, and the near plane to the sphere.
 ///
 /// ```
 /// use subsurface_runtime::Bounds;

@@ -2,6 +2,9 @@
 
 use crate::bindings::clear::ClearObject;
 
+/// Largest absorption, per mm: times no way it is still 0.
+const MOST_ABSORPTION: f32 = 1e20;
+
 /// A material that absorbs light on its way through and refracts it where it enters, such as glass, water or a soap bubble.
 ///
 /// The compiler makes one of each `Clear(…)` of a set, as a constant of the generated module `clear`.
@@ -34,7 +37,9 @@ impl ClearMaterial {
     /// As the shaders take it, but for where it stands.
     pub(crate) fn uniform(&self, coverage: f32) -> ClearObject {
         ClearObject {
-            absorption_per_mm: self.absorption_per_mm.map(|absorption| absorption.max(0.0)),
+            absorption_per_mm: self
+                .absorption_per_mm
+                .map(|absorption| absorption.clamp(0.0, MOST_ABSORPTION)),
             refractive_index: self.refractive_index.clamp(1.0, 2.0),
             roughness: self.roughness.clamp(0.0, 1.0),
             shell_thickness_mm: self.shell_thickness_mm.unwrap_or_default().max(0.0),

@@ -56,12 +56,14 @@ fn half_space_h(u: vec3f, root: vec3f) -> vec3f {
 fn convex_gain(root: vec3f, inverse_square: f32, curvature: vec3f) -> vec3f {
     let x = root * sqrt(3.0) / (max(curvature, vec3f(1e-6)) * sqrt(1.0 + root * root));
     // coth x − 1/x; x/3 where their difference would round.
-    let langevin = select(1.0 / tanh(min(x, vec3f(20.0))) - 1.0 / x, x / 3.0, x < vec3f(0.05));
+    let far = clamp(x, vec3f(0.05), vec3f(1e6));
+    let langevin = select(1.0 / tanh(min(far, vec3f(20.0))) - 1.0 / far, x / 3.0, x < vec3f(0.05));
     let curved = root * langevin;
     let flat_albedo = relative_diffuse_albedo(root);
     let curved_albedo = (1.0 - curved) * relative_diffuse_albedo(curved);
     let kept = 1.0 - inverse_square;
-    let leaving = (1.0 - kept * (1.0 - root) * flat_albedo) / (1.0 - kept * curved_albedo);
+    let flat_leaving = max(1.0 - kept * (1.0 - root) * flat_albedo, vec3f(1e-6));
+    let leaving = flat_leaving / max(1.0 - kept * curved_albedo, vec3f(1e-6));
     let gain = root * root + (1.0 + root) * curved_albedo / flat_albedo * leaving;
     return select(vec3f(1.0), gain, curvature > vec3f(1e-6));
 }

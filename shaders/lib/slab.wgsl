@@ -30,10 +30,15 @@ fn slab_transmittance(surface_albedo: vec3f, mean_free_path_mm: vec3f, thickness
     return root / (1.0 + surface_albedo * surface_albedo * depth * mean_exponential(y, root));
 }
 
-/// Fraction of the light that comes back from the near face, per channel.
-fn slab_reflectance(surface_albedo: vec3f, mean_free_path_mm: vec3f, thickness_mm: f32) -> vec3f {
+/// Light that comes back from the near face, over what does from a slab without end: R/A, per channel.
+fn slab_returned(surface_albedo: vec3f, mean_free_path_mm: vec3f, thickness_mm: f32) -> vec3f {
     let depth = slab_strength(surface_albedo) * (thickness_mm / mean_free_path_mm);
     let y = (1.0 - surface_albedo) * (1.0 + surface_albedo) * depth;
     let returned = depth * mean_exponential(y, exp(-0.5 * y));
-    return surface_albedo * returned / (1.0 + surface_albedo * surface_albedo * returned);
+    return returned / (1.0 + surface_albedo * surface_albedo * returned);
+}
+
+/// Fraction of the light that comes back from the near face, per channel.
+fn slab_reflectance(surface_albedo: vec3f, mean_free_path_mm: vec3f, thickness_mm: f32) -> vec3f {
+    return surface_albedo * slab_returned(surface_albedo, mean_free_path_mm, thickness_mm);
 }

@@ -16,6 +16,11 @@ struct DiffuseLobe {
     roughness: f32,
 }
 
+/// Whether it is that of a layer below the boundary, with refracted cosines.
+fn diffuse_lobe_is_below(lobe: DiffuseLobe) -> bool {
+    return lobe.diffuse == DIFFUSE_HANRAHAN_KRUEGER || lobe.shape.y < 0.0;
+}
+
 /// f π/A of light that enters from `light` and leaves to `view`, unit vectors away from the surface.
 fn diffuse_lobe(lobe: DiffuseLobe, normal: vec3f, light: vec3f, view: vec3f) -> vec3f {
     let entering = max(dot(normal, light), 0.0);
@@ -33,8 +38,7 @@ fn diffuse_lobe(lobe: DiffuseLobe, normal: vec3f, light: vec3f, view: vec3f) -> 
     }
     // Below a boundary f(μ_l′, μ_v′)/η² of refracted cosines (Hanrahan and Krueger 1993): its transmittances are those
     // of the coupling, and what it reflects inside is lost. A sign among its numbers says whether a lobe is there.
-    let is_below = lobe.diffuse == DIFFUSE_HANRAHAN_KRUEGER || lobe.shape.y < 0.0;
-    let inverse_square = select(1.0, inverse_square_index(lobe.reflectance_at_normal), is_below);
+    let inverse_square = select(1.0, inverse_square_index(lobe.reflectance_at_normal), diffuse_lobe_is_below(lobe));
     let inside = vec2f(refracted_cosine(entering, inverse_square), refracted_cosine(leaving, inverse_square));
     let towards_inside = inside.x * inside.y + inverse_square * (towards - entering * leaving);
     if lobe.diffuse == DIFFUSE_LOMMEL_SEELIGER {

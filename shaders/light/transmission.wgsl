@@ -43,9 +43,17 @@ fn thickness_between(way_mm: f32, moved_mm: f32, facing_away: f32, parallel: f32
     return mix(along_light, across_slab, parallel);
 }
 
-/// Share of the light that enters on the far side which comes through: the mean transmittance around the point, where
-/// that `is_wanted`. The material's lengths are `length_scale` times as long.
-fn transmitted_share(
+/// Light that comes through to a point.
+struct Transmitted {
+    /// Share of what enters on the far side.
+    share: vec3f,
+    /// Cosine at which it enters there: that of the faces of a slab are alike, those of a rim are not.
+    cosine: f32,
+}
+
+/// The mean transmittance around the point, where that `is_wanted`. The material's lengths are `length_scale` times as
+/// long.
+fn transmitted(
     is_wanted: bool,
     light: Light,
     towards: vec3f,
@@ -56,7 +64,7 @@ fn transmitted_share(
     surface_albedo: vec3f,
     slab_albedo: vec3f,
     length_scale: f32,
-) -> vec3f {
+) -> Transmitted {
     let facing_away = max(-dot(normal, towards), 0.0);
     // A texel's neighbours, and half the disc: a rim as round as that stays outside.
     let texel = 2.0 * map_place(light, world_position).half_width / f32(textureDimensions(shadow_maps).x);
@@ -74,6 +82,7 @@ fn transmitted_share(
     var through = vec3f(0.0);
     var thickness_mm = 0.0;
     var seen = 0.0;
+    var cosines = 0.0;
     var direction = vec2f(1.0, 0.0);
     // Software drivers run both sides of a branch, but no more of a loop than there is to do.
     let taps = select(0u, THICKNESS_TAPS, is_wanted);
@@ -83,7 +92,8 @@ fn transmitted_share(
         let place = map_place(light, inside + offset.x * across + offset.y * along);
         let lit = lit_surface(shadow_maps, light, place.coordinate);
         let way_mm = (place.distance - lit.distance) * per_axis;
-        let parallel = clamp(-dot(lit_normal(light, lit, place.coordinate), normal), 0.0, 1.0);
+        let lit_facing = lit_normal(light, lit, place.coordinate);
+        let parallel = clamp(-dot(lit_facing, normal), 0.0, 1.0);
         let moved_mm = moved * light.millimetres_per_world_unit;
         let found_mm = thickness_between(way_mm, moved_mm, facing_away, parallel);
         // Where the map saw nothing, nothing comes through: what was not measured does not glow.
@@ -94,13 +104,18 @@ fn transmitted_share(
         through += counts * slab_transmittance(slab_albedo, surface.slab_mean_free_path_mm * length_scale, found_mm);
         thickness_mm += seen_here * found_mm;
         seen += seen_here;
+        // Where a part of it is not seen the lit face has no slope.
+        let has_slope = any(lit.slope != vec2f(0.0)) || facing_away > 0.999;
+        cosines += seen_here * select(facing_away, clamp(dot(lit_facing, towards), 0.0, 1.0), has_slope);
     }
     through /= f32(THICKNESS_TAPS);
+    let cosine = sqrt(facing_away * select(facing_away, cosines / max(seen, 1.0), seen > 0.0));
     if !PROFILES_TRANSMIT {
-        return through;
+        return Transmitted(through, cosine);
     }
     // The profile's integral is dear: once, at the mean.
     let mean_mm = thickness_mm / max(seen, 1.0) / length_scale;
     let of_profile = profile_transmittance(profiles, surface_albedo, mean_mm) * (seen / f32(THICKNESS_TAPS));
-    return select(of_profile, through, surface.slab_mean_free_path_mm.r > 0.0);
+    let is_slab = surface.slab_mean_free_path_mm.r > 0.0;
+    return Transmitted(select(of_profile, through, is_slab), cosine);
 }

@@ -1,4 +1,4 @@
-// uses: lib/{angle, object_transform}, light/{absorption, environment, fresnel, light, refraction, specular}
+// uses: lib/{angle, numeric_limits, object_transform}, light/{absorption, environment, fresnel, light, refraction, specular}
 
 /// Camera and light from everywhere of one frame.
 struct ClearFrame {
@@ -37,6 +37,9 @@ struct ClearObject {
     /// Share of each pixel that it covers, 0 to 1.
     coverage: f32,
 }
+
+/// World-space distance at which what is behind counts as far away.
+const FARTHEST_BEHIND: f32 = 1e6;
 
 @group(0) @binding(0) var<uniform> clear_frame: ClearFrame;
 /// The first `light_count` of them shine.
@@ -88,34 +91,58 @@ fn clear_fragment(interpolated: ClearInterpolated, @builtin(front_facing) front_
     let reflectance = reflectance_of_index(index);
     let fresnel = fresnel_schlick(reflectance, cosine);
 
-    // Through what is filled a ray goes to where it leaves, or to what is opaque within.
+    // Through what is filled a ray goes to where it leaves, or to what is opaque within; as far as through a slab, whose
+    // faces are parallel. What is opaque is looked up where the ray ends without it, and once more where it then ends.
     let is_shell = clear_object.shell_thickness_mm > 0.0;
     let per_axis = 1.0 / max(dot(ray, frame.forward), 1e-6);
-    let opaque_length = opaque_axis * per_axis;
-    let last = min(textureLoad(exit_texture, pixel, 0).r, opaque_length);
-    let inside = select(max(last - ray_length, 0.0), 0.0, is_shell);
+    let longest = select(max(textureLoad(exit_texture, pixel, 0).r - ray_length, 0.0), 0.0, is_shell);
+    let bent = refracted_direction(towards_camera, normal, 1.0 / index);
+    let bent_growth = cosine / max(-dot(bent, normal), 1e-3);
+    let own_place = (vec2f(pixel) + 0.5) / size;
+    var inside = longest;
+    var place = own_place;
+    var behind_axis = opaque_axis;
+    for (var look = 0; look < 2; look += 1) {
+        let end = interpolated.world_position + inside * bent_growth * bent;
+        let clip = frame.clip_from_world * vec4f(end, 1.0);
+        let projected = vec2f(0.5, -0.5) * clip.xy / max(clip.w, frame.near) + 0.5;
+        place = clamp(projected, vec2f(0.0), vec2f(1.0));
+        let seen = vec2i(min(place * size, size - 1.0));
+        behind_axis = frame.near / max(textureLoad(opaque_depth_texture, seen, 0).r, 1e-20);
+        // What stands before the surface is not seen through it, and a ray may bend to behind the camera.
+        if behind_axis < along_axis || clip.w <= frame.near {
+            place = own_place;
+            behind_axis = opaque_axis;
+        }
+        inside = min(longest, (behind_axis - along_axis) * per_axis);
+    }
     let way_mm = select(
         inside * frame.millimetres_per_world_unit,
         shell_way_mm(clear_object.shell_thickness_mm, cosine),
         is_shell,
     );
-    // As far as through a slab: its faces are parallel.
-    let bent = refracted_direction(towards_camera, normal, 1.0 / index);
-    let bent_length = inside * cosine / max(-dot(bent, normal), 1e-3);
-    let end = interpolated.world_position + bent_length * bent;
-    let clip = frame.clip_from_world * vec4f(end, 1.0);
-    let own_place = (vec2f(pixel) + 0.5) / size;
-    let bent_place = clamp(vec2f(0.5, -0.5) * clip.xy / clip.w + 0.5, vec2f(0.0), vec2f(1.0));
-    // What stands before the surface is not seen through it.
-    let seen = vec2i(min(bent_place * size, size - 1.0));
-    let seen_axis = frame.near / max(textureLoad(opaque_depth_texture, seen, 0).r, 1e-20);
-    let place = select(bent_place, own_place, seen_axis < along_axis);
-    // A lobe of α spreads by α (1 − 1/η) on its way to what is behind.
+    let is_far = behind_axis > FARTHEST_BEHIND;
+    behind_axis = min(behind_axis, FARTHEST_BEHIND);
+    // A face that is turned by an angle bends a ray by (1 − 1/η) times that inside, and by (η − 1) times behind a far
+    // face that is not; faces turn by about α.
     let alpha = clear_object.roughness * clear_object.roughness;
-    let spread = 2.0 * alpha * (1.0 - 1.0 / index) * max(min(seen_axis, 1e6) - along_axis, 0.0);
-    let spread_pixels = spread * frame.pixels_at_one / max(min(seen_axis, 1e6), along_axis);
+    let inside_axis = inside * dot(ray, frame.forward);
+    let outside_axis = max(behind_axis - along_axis - inside_axis, 0.0);
+    let spread = 2.0 * alpha * ((1.0 - 1.0 / index) * inside_axis + (index - 1.0) * outside_axis);
+    let spread_pixels = spread * frame.pixels_at_one / max(behind_axis, along_axis);
     let level = log2(max(spread_pixels, 1.0));
-    let behind = textureSampleLevel(behind_texture, behind_sampler, place, level).rgb;
+    var behind = textureSampleLevel(behind_texture, behind_sampler, place, level).rgb;
+    if is_far && frame.environment.intensity > 0.0 {
+        // Where nothing is behind there is the light from all around.
+        let leaving = select(bent, ray, is_shell);
+        behind = environment_reflection(
+            clear_environment_radiance,
+            clear_environment_sampler,
+            frame.environment,
+            leaving,
+            clear_object.roughness,
+        );
+    }
 
     let mirrored = reflect(ray, normal);
     let reflected = frame.ambient_irradiance / PI
@@ -134,8 +161,10 @@ fn clear_fragment(interpolated: ClearInterpolated, @builtin(front_facing) front_
     for (var i = 0u; i < frame.light_count; i += 1u) {
         let arrival = light_arrival(clear_lights[i], interpolated.world_position);
         let lobe = specular_reflection(normal, arrival.towards, towards_camera, reflectance, clear_object.roughness);
-        colour += arrival.irradiance * lobe;
+        // As much as of light from everywhere: a wall reflects by both faces.
+        colour += arrival.irradiance * lobe * select(1.0, 2.0 / (1.0 + fresnel), is_shell);
     }
     let uncovered = textureLoad(behind_texture, pixel, 0).rgb;
-    return vec4f(mix(uncovered, colour, clear_object.coverage), 1.0);
+    let picture = mix(uncovered, min(colour, vec3f(LARGEST_HALF)), clear_object.coverage);
+    return vec4f(picture, 1.0);
 }

@@ -1,4 +1,4 @@
-// uses: kernel/constants, lib/{albedo_mix, angle, covering_triangle, medium_angles, tone}
+// uses: kernel/constants, lib/{albedo_mix, angle, covering_triangle, medium_angles, numeric_limits, tone}
 
 /// How radiance becomes a picture.
 struct CompositeSettings {
@@ -49,7 +49,9 @@ fn composite_fragment(@builtin(position) position: vec4f) -> @location(0) vec4f 
     let background = mix(composite_settings.background_top, composite_settings.background_bottom, position.y / height);
     let exit = diffused.a * exit_of(unscattered.a, surface.rgb);
     let lit = diffused.rgb * leaving_albedo / PI * exit + unscattered.rgb;
-    let radiance = composite_settings.exposure * select(background, lit, unscattered.a > 0.5);
+    // A half float of the output must not end at infinity.
+    let bounded = min(lit, vec3f(LARGEST_HALF));
+    let radiance = composite_settings.exposure * select(background, bounded, unscattered.a > 0.5);
 
     let settings = composite_settings;
     let colour = display_colour(radiance, settings.tone_map, settings.encode_srgb);

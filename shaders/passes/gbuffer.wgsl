@@ -174,16 +174,20 @@ fn gbuffer_fragment(interpolated: GBufferInterpolated, @builtin(front_facing) fr
     let slab_albedo = select(surface_albedo, matched_albedo(medium), row.surface.is_medium != 0u);
     let view_albedo = surface_specular_albedo(specular, view_cosine);
     let ambient_share = entering_ambient_share(specular);
-    let leaving = leaving_share(specular, view_albedo, ambient_share);
+    // A lobe below the boundary has lost what that sends back inside: none of it comes out again.
+    let is_below = DIFFUSE_LOBES && has_brdf && diffuse_lobe_is_below(lobe);
+    let leaving = leaving_share(specular, view_albedo, select(ambient_share, 1.0, is_below));
     let slab_length = row.surface.slab_mean_free_path_mm * mean_free_path_scale;
     let is_measured = HAS_DETAILS && object.thickness_mm > 0.0;
     let sheet_mm = select(row.surface.thin_thickness_mm, thickness_mm, is_measured);
-    // What comes through without a map: through a sheet, and through a solid that says how thick it is.
+    // What comes through without a map: through a sheet, and through a solid that says how thick it is. That sends back
+    // less of the same light than what has no far side.
     var sheet = vec3f(0.0);
     if THIN_SHEETS {
         sheet = slab_transmittance(slab_albedo, slab_length, sheet_mm);
     }
     var solid = vec3f(0.0);
+    var solid_front = vec3f(1.0);
     if HAS_DETAILS {
         let by_law = material_transmittance(
             row.surface,
@@ -193,7 +197,11 @@ fn gbuffer_fragment(interpolated: GBufferInterpolated, @builtin(front_facing) fr
             mean_free_path_scale,
             thickness_mm,
         );
-        solid = select(vec3f(0.0), by_law, is_measured && translucent && !is_thin);
+        let is_solid = is_measured && translucent && !is_thin;
+        solid = select(vec3f(0.0), by_law, is_solid);
+        let has_length = is_solid && slab_length.r != 0.0;
+        let scaled = select(vec3f(1.0), abs(slab_length), has_length);
+        solid_front = select(vec3f(1.0), slab_returned(slab_albedo, scaled, thickness_mm), has_length);
     }
 
     // A sheet sends back from where light entered.
@@ -221,9 +229,10 @@ fn gbuffer_fragment(interpolated: GBufferInterpolated, @builtin(front_facing) fr
     }
     var irradiance = around * ambient_share * medium_ambient_entry(medium);
     // A lobe of its own is for what does not spread, and a sheet has no inside.
-    let is_convex = translucent && !is_thin && !has_brdf && object.mean_curvature > 0.0;
+    let has_far_side = HAS_DETAILS && object.thickness_mm > 0.0;
+    let is_convex = translucent && !is_thin && !has_brdf && !has_far_side && object.mean_curvature > 0.0;
     let curvature = select(0.0, object.mean_curvature / frame.millimetres_per_world_unit, is_convex);
-    irradiance *= convex_gain(medium.root, medium.inverse_square, curvature * abs(slab_length));
+    irradiance *= solid_front * convex_gain(medium.root, medium.inverse_square, curvature * abs(slab_length));
     if DIFFUSE_LOBES && has_brdf {
         irradiance *= diffuse_lobe_ambient(lobe, normal, towards_camera);
     }
@@ -254,18 +263,8 @@ fn gbuffer_fragment(interpolated: GBufferInterpolated, @builtin(front_facing) fr
         let cosine = max(dot(normal, arrival.towards), 0.0);
         let arriving = arrival.irradiance * visibility * facing;
         let facing_away = max(-true_cosine, 0.0);
-        let entering_cosine = select(cosine, facing_away, is_behind);
-        let entering = entering_share(specular, entering_cosine);
-        let angles = entering_angles(medium, entering_cosine);
-        var entered = arriving * (cosine * entering) * medium_entry(medium, angles);
-        if DIFFUSE_LOBES && has_brdf {
-            entered *= diffuse_lobe(lobe, normal, arrival.towards, towards_camera);
-        }
-        irradiance += entered;
-        unscattered += arriving * surface_reflection(specular, normal, arrival.towards, towards_camera);
-        let behind = arrival.irradiance * (facing_away * entering);
         let is_mapped = !is_thin && transmission > 0.0 && is_behind && light.layer != NO_SHADOW_MAP;
-        let share = transmitted_share(
+        let mapped = transmitted(
             is_mapped,
             light,
             arrival.towards,
@@ -277,8 +276,19 @@ fn gbuffer_fragment(interpolated: GBufferInterpolated, @builtin(front_facing) fr
             slab_albedo,
             mean_free_path_scale,
         );
+        let far_cosine = select(facing_away, mapped.cosine, is_mapped);
+        let entering_cosine = select(cosine, far_cosine, is_behind);
+        let entering = entering_share(specular, entering_cosine);
+        let angles = entering_angles(medium, entering_cosine);
+        var entered = arriving * (cosine * entering) * medium_entry(medium, angles);
+        if DIFFUSE_LOBES && has_brdf {
+            entered *= diffuse_lobe(lobe, normal, arrival.towards, towards_camera);
+        }
+        irradiance += entered * select(vec3f(1.0), solid_front, light.layer == NO_SHADOW_MAP);
+        unscattered += arriving * surface_reflection(specular, normal, arrival.towards, towards_camera);
+        let behind = arrival.irradiance * (far_cosine * entering);
         // Without a map the object's own thickness stands for the light's way.
-        let of_solid = select(share, solid, light.layer == NO_SHADOW_MAP);
+        let of_solid = select(mapped.share, solid, light.layer == NO_SHADOW_MAP);
         through += behind * select(of_solid * medium_through(medium, angles), visibility * sheet, is_thin);
     }
     if ALBEDO_MIXES {

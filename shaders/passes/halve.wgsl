@@ -8,14 +8,20 @@ fn halve_vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
     return covering_triangle(index);
 }
 
-/// The mean of four texels; at an odd edge the last stand for those beyond.
+/// The mean over a texel's area: of four texels, and of parts of nine where a side is odd.
 @fragment
 fn halve_fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
-    let last = vec2i(textureDimensions(halved_texture)) - 1;
-    let first = 2 * vec2i(position.xy);
+    let size = vec2i(textureDimensions(halved_texture));
+    // Texels of the level above per texel of this one.
+    let growth = vec2f(size) / vec2f(max(size / 2, vec2i(1)));
+    let start = floor(position.xy) * growth;
+    let end = start + growth;
     var sum = vec4f(0.0);
-    for (var corner = 0; corner < 4; corner += 1) {
-        sum += textureLoad(halved_texture, min(first + vec2i(corner % 2, corner / 2), last), 0);
+    for (var corner = 0; corner < 9; corner += 1) {
+        let texel = floor(start) + vec2f(f32(corner % 3), f32(corner / 3));
+        let overlap = max(min(end, texel + 1.0) - max(start, texel), vec2f(0.0));
+        let place = min(vec2i(texel), size - 1);
+        sum += overlap.x * overlap.y * textureLoad(halved_texture, place, 0);
     }
-    return 0.25 * sum;
+    return sum / (growth.x * growth.y);
 }

@@ -35,14 +35,15 @@ impl FromStr for Detail {
 /// What a scene's surfaces have beside colours and normals.
 #[derive(Clone, Debug, Default, Args)]
 pub struct DetailArguments {
-    /// Factor on the mean free path of all objects; with an image, whose red channel lies over the texture coordinates, a
+    /// Factor on the mean free path of all objects that scatter; with an image, whose red channel lies over the texture coordinates, a
     /// factor on that, such as 1,density.png.
     #[arg(long, value_name = "FACTOR[,FILE.png]", allow_hyphen_values = true)]
     pub mean_free_path_scale: Option<Detail>,
-    /// Thickness of all objects in mm; with an image, that where its green channel is 1, such as 5,thickness.png.
+    /// Thickness of all objects that scatter, in mm; with an image, that where its green channel is 1, such as 5,thickness.png.
     ///
     /// A sheet is as thick in place of what its material says. Through a solid, light from all around comes so (--ambient,
-    /// --environment), and that of lights beyond the four that have shadow maps; what a map sees of a solid it measures.
+    /// --environment), and that of lights beyond the four that have shadow maps, and its near side sends back less of that;
+    /// what a map sees of a solid it measures.
     #[arg(long, value_name = "MM[,FILE.png]", allow_hyphen_values = true)]
     pub thickness_mm: Option<Detail>,
 }

@@ -43,7 +43,8 @@ pub struct DiffuseArguments {
     #[arg(long, value_name = "FILE.exr")]
     pub mean_free_path_scale: Option<PathBuf>,
     /// Power of the surface albedo that the irradiance is multiplied by first: 0 takes it as it is, 1 blurs the texture as
-    /// the light. Multiply what comes out by the rest, surface albedo to the power of 1 - X.
+    /// the light. Multiply what comes out by the rest, surface albedo to the power of 1 - X. A
+    /// material's own `surface_albedo_mix` is for the G-buffer, which `render --aov` writes: there it is in the irradiance.
     #[arg(long, value_name = "X", default_value_t = 0.0, value_parser = number::albedo_mix, allow_hyphen_values = true)]
     pub albedo_mix: f32,
     /// Which kernel diffuses.

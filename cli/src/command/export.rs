@@ -102,7 +102,7 @@ impl fmt::Display for Difference {
             Self::Black => {
                 write!(
                     f,
-                    "lights without a size cannot be sampled through a rough boundary: their light will be missing"
+                    "lights without a size cannot be sampled through a boundary that refracts: their light will be missing"
                 )
             }
             Self::MeanAlbedo { object } => {
@@ -151,7 +151,7 @@ impl Explain for Difference {
                      --boundary rough and lights that have a size"
                 }
                 Self::Black => {
-                    "use --boundary matched, or give the lights a size: --light dx,dy,dz,intensity,degrees"
+                    "give the lights a size, --light dx,dy,dz,intensity,degrees; or, for what scatters, use --boundary matched"
                 }
                 Self::AlbedoMix { .. } => {
                     "compare with a picture of one colour, where the mix changes nothing"

@@ -71,7 +71,14 @@ pub(crate) enum Chosen {
 pub(super) fn chosen(compilation: &Compilation, name: &str) -> Result<Chosen, Failure> {
     match compilation.set.clear.iter().find(|clear| clear.name == name) {
         Some(clear) => Ok(Chosen::Clear(clear_surface(clear))),
-        None => number(compilation, name).map(Chosen::Scattering),
+        None => match compilation.set.index_of(name) {
+            Some(index) => Ok(Chosen::Scattering(index as u32)),
+            None => {
+                let clear = compilation.set.clear.iter().map(|clear| clear.name.clone());
+                let known: Vec<String> = compilation.material_names().into_iter().chain(clear).collect();
+                Err(Failure::new(format!("no material is called `{name}`"), suggest(name, &known)))
+            }
+        },
     }
 }
 
@@ -112,6 +119,10 @@ pub(crate) fn assign(scene: &mut Scene, compilation: &Compilation, fallback: Cho
 pub(super) fn number(compilation: &Compilation, name: &str) -> Result<u32, Failure> {
     match compilation.set.index_of(name) {
         Some(index) => Ok(index as u32),
+        None if compilation.set.clear.iter().any(|clear| clear.name == name) => Err(Failure::new(
+            format!("`{name}` is clear: it does not scatter"),
+            format!("name a material that does; {}", suggest("", &compilation.material_names())),
+        )),
         None => Err(Failure::new(
             format!("no material is called `{name}`"),
             suggest(name, &compilation.material_names()),

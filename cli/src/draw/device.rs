@@ -135,7 +135,10 @@ impl Device {
         let exhausted = pollster::block_on(memory.pop());
         if let Some(error) = exhausted {
             let message = format!("the graphics device is out of memory: {error}");
-            return Err(Failure::new(message, "try a smaller --size"));
+            return Err(Failure::new(
+                message,
+                "try a smaller --size, or a smaller --shadow-map-size if you gave one",
+            ));
         }
         if let Some(error) = refused {
             let message = format!("the graphics device refuses the frame: {error}");

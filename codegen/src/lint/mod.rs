@@ -7,6 +7,7 @@ mod mixture_weights;
 mod specular;
 mod surface_albedo;
 mod table_range;
+mod thin;
 mod transmission;
 
 use crate::diagnostics::Diagnostic;
@@ -24,4 +25,5 @@ pub(crate) fn check(material: &Draft<'_>, diagnostics: &mut Vec<Diagnostic>) {
     specular::check(material, diagnostics);
     diffuse::check(material, diagnostics);
     transmission::check(material, diagnostics);
+    thin::check(material, diagnostics);
 }

@@ -71,7 +71,7 @@ fn decode_absorption(decoder: &mut Decoder, node: &Node<'_>) -> Option<[f64; 3]>
         decoder.triple(node, "colour", "(red, green, blue)", &TRANSMITTED_COLOUR)
     });
     let distance = fields.required(decoder, "at_distance_mm", ABSORPTION_EXAMPLE, |decoder, node| {
-        decoder.number(node, "at_distance_mm", &DISTANCE)
+        decoder.spanned_number(node, "at_distance_mm", &DISTANCE)
     });
     let (colour, distance) = (colour?, distance?);
     if let Some(black) = colour.values.iter().position(|colour| *colour < ClearMaterial::LEAST_COLOUR) {
@@ -81,5 +81,14 @@ fn decode_absorption(decoder: &mut Decoder, node: &Node<'_>) -> Option<[f64; 3]>
                 .help("give what little comes through at the distance, or a shorter distance"),
         );
     }
-    Some(colour.values.map(|colour| ClearMaterial::absorption_of(colour, distance)))
+    let absorption = colour.values.map(|colour| ClearMaterial::absorption_of(colour, distance.value));
+    if absorption.iter().any(|absorption| *absorption > ClearMaterial::MOST_ABSORPTION) {
+        decoder.report(
+            Diagnostic::error("this absorption is too large")
+                .label(distance.span, "the colour is reached after less than light can go")
+                .help("give a longer distance; after a thousandth of a millimetre is what ink has"),
+        );
+        return None;
+    }
+    Some(absorption)
 }

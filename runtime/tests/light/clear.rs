@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use glam::{Mat4, Quat, Vec3};
 use subsurface_runtime::{
-    Bounds, ClearMaterial, Renderer, RendererDescriptor, SurfaceDescriptor, Vertex, wgpu,
+    Bounds, ClearMaterial, Environment, Renderer, RendererDescriptor, SurfaceDescriptor, Vertex, wgpu,
 };
 
 use crate::gpu::Gpu;
@@ -244,4 +244,21 @@ fn an_object_that_moves_is_clear_where_it_went() {
     let picture = scene.picture(&[], 0.0, BOUNDS)[MIDDLE];
     let found = [0, 1, 2].map(|channel: usize| f64::from(picture[channel]));
     assert_near(found, left(4.0 / 1.0_f64.cos()), 2e-3);
+}
+
+#[test]
+fn an_environment_is_seen_through_what_is_clear() {
+    let gpu = Gpu::open();
+    let mut scene = scene(&gpu);
+    let sky =
+        Environment::new(&gpu.device, &gpu.queue, 4, 2, &[[0.25; 3]; 8]).expect("twice as wide as high");
+    scene.renderer.set_environment(Some(sky)).expect("the kernel is the same");
+    let wall = ClearMaterial { shell_thickness_mm: Some(2.0), ..SMOKE };
+    for (clear, way_mm, mesh) in [(wall, 2.0, quad()), (SMOKE, 6.0, sphere(3e-3))] {
+        let surface = SurfaceDescriptor { clear: Some(clear), ..Default::default() };
+        scene.objects = vec![scene.surfaced(&mesh, surface)];
+        let picture = scene.picture(&[], 0.0, BOUNDS)[MIDDLE];
+        let expected = left(way_mm).map(|left| 0.25 * left);
+        assert_near([0, 1, 2].map(|channel: usize| f64::from(picture[channel])), expected, 2e-3);
+    }
 }

@@ -111,6 +111,22 @@ fn light_from_all_around_comes_through_a_solid_that_says_how_thick_it_is() {
 }
 
 #[test]
+fn a_white_solid_under_a_white_sky_is_white() {
+    let gpu = Gpu::open();
+    let white = medium("diffuse: Lambert, specular: (reflectance_at_normal: 0, coupling: None)")
+        .replace("surface_albedo: (0.83, 0.64, 0.55)", "surface_albedo: (1.0, 0.5, 0.0)");
+    for thickness_mm in [0.1, 1.0, 4.0, 20.0] {
+        let mut scene = Scene::new(&gpu, &white, &[]);
+        let surface = SurfaceDescriptor { thickness_mm, ..Default::default() };
+        scene.objects = vec![scene.surfaced(&tilted(0.7), surface)];
+        let [.., found] = scene.lit(&[], PI as f32, BOUNDS);
+        // What it does not send back comes through.
+        assert!((found[0] - 1.0).abs() < 2e-3, "{thickness_mm} mm: {found:?}");
+        assert!(found[1] < 1.0 && found[2] < 1.0, "{thickness_mm} mm: {found:?}");
+    }
+}
+
+#[test]
 fn a_light_without_a_map_comes_through_by_the_object_s_thickness() {
     let gpu = Gpu::open();
     let mut scene = Scene::new(&gpu, &medium("diffuse: Lambert, specular: (reflectance_at_normal: 0)"), &[]);

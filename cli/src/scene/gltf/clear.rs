@@ -13,11 +13,9 @@ const WALL_MM: f32 = 1.0;
 /// Least colour that has a finite absorption, as of `Clear(…)`.
 const LEAST_COLOUR: f32 = 1e-6;
 
-/// What is clear of a material whose transmission is more than half; a volume's lengths grow by `scale`. What is
-/// approximated is a warning.
+/// What is clear of a material whose transmission is more than half. What is approximated is a warning.
 pub(super) fn clear_surface(
     material: &gltf::Material<'_>,
-    scale: f32,
     place: &Place,
     warnings: &mut Vec<GltfWarning>,
 ) -> Option<ClearSurface> {
@@ -37,27 +35,41 @@ pub(super) fn clear_surface(
     let [red, green, blue, alpha] = colour.base_color_factor();
     let tint = [red, green, blue];
     let volume = material.volume().filter(|volume| volume.thickness_factor() > 0.0);
-    let absorption_of = |colour: f32, at_mm: f32| -colour.clamp(LEAST_COLOUR, 1.0).ln() / at_mm;
+    let mut within = |what: &'static str, value: f32, least: f32, most: f32| {
+        // Not a number is out of range too.
+        if !(least..=most).contains(&value) {
+            warnings.push(GltfWarning::ClearOutOfRange { place: place.clone(), what });
+        }
+        if value.is_nan() { least } else { value.clamp(least, most) }
+    };
+    let absorption_of = |colour: f32, at_mm: f32| -colour.clamp(LEAST_COLOUR, 1.0).ln() / at_mm + 0.0;
     // A volume absorbs by its own colour; a wall is coloured by the base colour.
     let (absorption_per_mm, shell_thickness_mm) = match &volume {
         Some(volume) => {
-            if tint != [1.0; 3] || colour.base_color_texture().is_some() {
-                warnings.push(GltfWarning::TintedVolume { place: place.clone() });
-            }
-            let distance_mm = volume.attenuation_distance() * scale * MILLIMETRES_PER_METRE;
-            (volume.attenuation_color().map(|colour| absorption_of(colour, distance_mm)), None)
+            // In the world's units, unlike the thickness: the node's scale is no part of it. Without one nothing is absorbed.
+            let distance = volume.attenuation_distance();
+            let is_finite = distance.is_finite();
+            let distance = if is_finite { within("attenuationDistance", distance, 1e-9, 1e9) } else { 1.0 };
+            let colour =
+                volume.attenuation_color().map(|colour| within("attenuationColor", colour, 0.0, 1.0));
+            let absorption = colour.map(|colour| absorption_of(colour, distance * MILLIMETRES_PER_METRE));
+            (if is_finite { absorption } else { [0.0; 3] }, None)
         }
         None => {
-            if colour.base_color_texture().is_some() {
-                warnings.push(GltfWarning::TintedVolume { place: place.clone() });
-            }
+            let tint = tint.map(|colour| within("baseColorFactor", colour, 0.0, 1.0));
             (tint.map(|colour| absorption_of(colour, WALL_MM)), Some(WALL_MM))
         }
     };
+    let refractive_index = within("ior", material.ior().unwrap_or(DEFAULT_INDEX), 1.0, 2.0);
+    let roughness = within("roughnessFactor", colour.roughness_factor(), 0.0, 1.0);
+    let has_tint = volume.is_some() && tint != [1.0; 3];
+    if has_tint || colour.base_color_texture().is_some() {
+        warnings.push(GltfWarning::TintedVolume { place: place.clone() });
+    }
     Some(ClearSurface {
         absorption_per_mm,
-        refractive_index: material.ior().unwrap_or(DEFAULT_INDEX).clamp(1.0, 2.0),
-        roughness: colour.roughness_factor(),
+        refractive_index,
+        roughness,
         shell_thickness_mm,
         coverage: if material.alpha_mode() == gltf::material::AlphaMode::Blend { alpha } else { 1.0 },
     })

@@ -152,7 +152,7 @@ impl Loader<'_> {
             specular_strength_factor: specular.map_or(1.0, |specular| specular.specular_factor()),
             thickness,
             thickness_mm,
-            clear: clear::clear_surface(material, scale, place, &mut self.warnings),
+            clear: clear::clear_surface(material, place, &mut self.warnings),
             material_name: material.name().map(str::to_owned),
             ..Surface::default()
         })

@@ -34,8 +34,16 @@ pub(super) fn open(path: &Path) -> Result<gltf::Gltf, GltfError> {
             )));
         }
     }
-    gltf::Gltf::from_slice(&bytes).map_err(|reason| malformed(reason.to_string()))
+    let gltf::Gltf { document, blob } =
+        gltf::Gltf::from_slice_without_validation(&bytes).map_err(|reason| malformed(reason.to_string()))?;
+    let mut root = document.into_json();
+    root.extensions_required.retain(|extension| !READ.contains(&extension.as_str()));
+    let document = gltf::Document::from_json(root).map_err(|reason| malformed(reason.to_string()))?;
+    Ok(gltf::Gltf { document, blob })
 }
+
+/// Extensions that are read, and that the library does not know a file may require.
+const READ: [&str; 2] = ["KHR_materials_specular", "KHR_materials_volume"];
 
 /// All buffers of one file.
 pub(super) struct Sources {

@@ -17,6 +17,7 @@ pub enum GltfWarning {
     LittleTransmission { place: Place },
     PartlyClear { place: Place },
     TintedVolume { place: Place },
+    ClearOutOfRange { place: Place, what: &'static str },
 }
 
 impl std::fmt::Display for GltfWarning {
@@ -46,6 +47,9 @@ impl std::fmt::Display for GltfWarning {
             }
             Self::PartlyClear { place } => {
                 write!(f, "{place} transmits a part of the light, or by a texture: it is drawn clear")
+            }
+            Self::ClearOutOfRange { place, what } => {
+                write!(f, "{place} is clear and its `{what}` is out of range: the nearest within is taken")
             }
             Self::TintedVolume { place } => {
                 write!(
@@ -77,6 +81,9 @@ impl Explain for GltfWarning {
             Self::LittleTransmission { .. } => "set its `transmissionFactor` to 0 or 1",
             Self::PartlyClear { .. } => {
                 "set its `transmissionFactor` to 1 without a texture, or give the object a `Clear(…)` by name"
+            }
+            Self::ClearOutOfRange { .. } => {
+                "an `ior` is from 1 to 2, a roughness or a colour from 0 to 1, a distance above 0"
             }
             Self::TintedVolume { .. } => {
                 "give the colour as `attenuationColor` at an `attenuationDistance`, and a white base colour"

@@ -9,6 +9,7 @@ use crate::bindings::clear::{
     BindGroup0, BindGroup1, ClearFrame, ENTRY_CLEAR_FRAGMENT, ENTRY_CLEAR_VERTEX, WGSL,
 };
 use crate::environment::Environment;
+use crate::extent::Extent;
 use crate::frame_error::FrameError;
 use crate::gbuffer::GBuffer;
 use crate::input::{Holds, Input};
@@ -56,6 +57,7 @@ pub struct ClearPass {
     lights: LightBuffer,
     sampler: wgpu::Sampler,
     environment: Environment,
+    has_environment: bool,
     bound: Option<Bound>,
     progress: Progress,
 }
@@ -95,6 +97,7 @@ impl ClearPass {
             lights: LightBuffer::new(device, label.of("lights")),
             sampler,
             environment: Environment::darkness(device),
+            has_environment: false,
             bound: None,
             progress: Progress::default(),
             label,
@@ -140,8 +143,9 @@ impl ClearPass {
         }
     }
 
-    /// Reflects an environment, or none.
+    /// Reflects an environment and shows it where nothing else is behind, or none.
     pub fn set_environment(&mut self, environment: Option<Environment>) {
+        self.has_environment = environment.is_some();
         self.environment = environment.unwrap_or_else(|| Environment::darkness(&self.device));
         self.rebind();
     }
@@ -161,7 +165,9 @@ impl ClearPass {
             glam::Mat4::from_cols_array_2d(&view.camera.projection(view.size.aspect(), &view.bounds));
         let view_from_world = view.camera.view_from_world();
         let clip_from_world = (projection * view_from_world).to_cols_array_2d();
-        let environment = self.environment.uniform(view.environment_intensity, view.environment_turn_radians);
+        // Darkness would be seen through what is clear, in place of the background.
+        let intensity = if self.has_environment { view.environment_intensity } else { 0.0 };
+        let environment = self.environment.uniform(intensity, view.environment_turn_radians);
         let frame = ClearFrame {
             clip_from_world,
             camera_position: view.camera.position,
@@ -195,7 +201,7 @@ impl ClearPass {
     ) -> Result<(), FrameError> {
         self.progress.is_prepared(NAME)?;
         let Some(bound) = &self.bound else { return Err(FrameError::NotBound { pass: NAME }) };
-        let size = crate::extent::Extent::of(&bound.exit.texture);
+        let size = Extent::of(&bound.exit.texture);
         let usage = wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC;
         Output { pass: NAME, size, format: Self::FORMAT, usage }.check(&picture.view)?;
         if !objects.iter().any(Object::is_clear) {
