@@ -47,7 +47,7 @@ fn thickness_between(way_mm: f32, moved_mm: f32, facing_away: f32, parallel: f32
 struct Transmitted {
     /// Share of what enters on the far side.
     share: vec3f,
-    /// Cosine at which it enters there: that of the faces of a slab are alike, those of a rim are not.
+    /// Cosine by which it enters there: those of the faces of a slab are alike, those of a rim are not.
     cosine: f32,
 }
 
@@ -109,6 +109,8 @@ fn transmitted(
         cosines += seen_here * select(facing_away, clamp(dot(lit_facing, towards), 0.0, 1.0), has_slope);
     }
     through /= f32(THICKNESS_TAPS);
+    // The geometric mean of both faces' cosines: of a slab either, and at the terminator 0, where the light of the lit
+    // side diffuses to already.
     let cosine = sqrt(facing_away * select(facing_away, cosines / max(seen, 1.0), seen > 0.0));
     if !PROFILES_TRANSMIT {
         return Transmitted(through, cosine);

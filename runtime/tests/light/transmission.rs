@@ -242,3 +242,25 @@ fn a_lamp_behind_a_slab_is_as_near_as_the_face_that_it_lights() {
         assert!((found[channel] / expected - 1.0).abs() < 0.03, "{channel}: {found:?}, not {expected}");
     }
 }
+
+#[test]
+fn a_rim_lets_in_light_by_the_face_that_is_turned_to_it() {
+    let gpu = Gpu::open();
+    let (mut vertices, indices) = block([0.03, 0.03, 5e-3]);
+    // The middle of the frame is 3 mm from the face towards −x.
+    for vertex in &mut vertices {
+        vertex.position[0] += 0.027;
+    }
+    for degrees in [60.0, 70.0, 80.0_f64] {
+        let mut scene = Scene::new(&gpu, &skin(""), &[(vertices.clone(), indices.clone())]);
+        let (sin, cos) = degrees.to_radians().sin_cos();
+        let [_, found] = scene.middle([-sin, 0.0, -cos], Bounds::new([0.027, 0.0, 0.0], 0.05));
+        // Perpendicular faces: along the light, and by the mean of both cosines.
+        let cosine = (sin * cos).sqrt();
+        for (channel, through) in slab_law(3.0 / sin).into_iter().enumerate() {
+            let expected = cosine * entering(cosine) * through;
+            // The mean over a disc of 0.3 mm, moved in by half of it: a tenth of the way.
+            assert!((found[channel] / expected - 1.0).abs() < 0.05, "{degrees}°: {found:?}, not {expected}");
+        }
+    }
+}
