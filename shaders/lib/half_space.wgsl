@@ -68,6 +68,21 @@ fn convex_gain(root: vec3f, inverse_square: f32, curvature: vec3f) -> vec3f {
     return select(vec3f(1.0), gain, curvature > vec3f(1e-6));
 }
 
+/// Cosine of the light where what leaves a convex body at a point has entered it, by channel. Light goes on for a mean
+/// free path as it came (Wang and Jacques 1995), and as far towards the viewer before it leaves; in between the normal
+/// turns by the curvature,
+///
+///     μ + H ℓ (|l_t|² − l_t·v_t)/η,
+///
+/// l_t and v_t the parts of both directions along the surface. `curvature` is H ℓ, `towards` l·v.
+fn convex_cosine(curvature: vec3f, inverse_square: f32, cosine: f32, view_cosine: f32, towards: f32) -> vec3f {
+    let turn = 1.0 - cosine * cosine - (towards - cosine * view_cosine);
+    let shift = sqrt(inverse_square) * curvature;
+    // It sets in at the terminator, where no light has entered yet.
+    let set_in = clamp(cosine / max(shift, vec3f(1e-6)), vec3f(0.0), vec3f(1.0));
+    return max(vec3f(cosine) + set_in * shift * turn, vec3f(0.0));
+}
+
 /// 1/⟨H⟩, ⟨H⟩ = 2 ∫ H(μ) μ dμ.
 fn inverse_mean_h(root: vec3f) -> vec3f {
     let c = HALF_SPACE_MEAN;

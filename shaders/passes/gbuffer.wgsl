@@ -232,7 +232,8 @@ fn gbuffer_fragment(interpolated: GBufferInterpolated, @builtin(front_facing) fr
     let has_far_side = HAS_DETAILS && object.thickness_mm > 0.0;
     let is_convex = translucent && !is_thin && !has_brdf && !has_far_side && object.mean_curvature > 0.0;
     let curvature = select(0.0, object.mean_curvature / frame.millimetres_per_world_unit, is_convex);
-    irradiance *= solid_front * convex_gain(medium.root, medium.inverse_square, curvature * abs(slab_length));
+    let curvatures = curvature * abs(slab_length);
+    irradiance *= solid_front * convex_gain(medium.root, medium.inverse_square, curvatures);
     if DIFFUSE_LOBES && has_brdf {
         irradiance *= diffuse_lobe_ambient(lobe, normal, towards_camera);
     }
@@ -280,7 +281,9 @@ fn gbuffer_fragment(interpolated: GBufferInterpolated, @builtin(front_facing) fr
         let entering_cosine = select(cosine, far_cosine, is_behind);
         let entering = entering_share(specular, entering_cosine);
         let angles = entering_angles(medium, entering_cosine);
-        var entered = arriving * (cosine * entering) * medium_entry(medium, angles);
+        let towards = dot(arrival.towards, towards_camera);
+        let cosines = convex_cosine(curvatures, medium.inverse_square, cosine, view_cosine, towards);
+        var entered = arriving * (cosines * entering) * medium_entry(medium, angles);
         if DIFFUSE_LOBES && has_brdf {
             entered *= diffuse_lobe(lobe, normal, arrival.towards, towards_camera);
         }

@@ -51,3 +51,34 @@ fn a_white_ball_is_as_white_as_what_is_flat() {
     let [diffuse, _] = scene.radiance(None);
     assert!((diffuse[0] - 1.0).abs() < 2e-3 && diffuse[2] == 0.0, "{diffuse:?}");
 }
+
+#[test]
+fn light_leaves_a_ball_a_mean_free_path_further_on() {
+    let gpu = Gpu::open();
+    const RADIUS_MM: f64 = 20.0;
+    for (reflectance, index) in [("0", 1.0), ("0.027777778", 1.4)] {
+        let fields =
+            format!("diffuse: Lambert, specular: (coupling: None, reflectance_at_normal: {reflectance})");
+        let mut ball = Scene::new(&gpu, &medium(&fields), &[sphere(1e-3 * RADIUS_MM as f32)]);
+        for degrees in [0.0, 30.0, 60.0, 80.0_f64] {
+            let (sin, cos) = degrees.to_radians().sin_cos();
+            // Seen along the normal: nothing is shifted towards the viewer.
+            let [found, _] = ball.middle([0.6 * sin, 0.8 * sin, cos], BOUNDS);
+            for channel in 0..3 {
+                let shift = MEAN_FREE_PATH_MM[channel] / RADIUS_MM / index * sin * sin;
+                // π of the light; half floats.
+                let expected = PI * (cos + shift);
+                let off = (found[channel] / expected - 1.0).abs();
+                assert!(off < 3e-3, "{index}, {degrees}°: {found:?}, not {expected}");
+            }
+        }
+    }
+    // What is flat has the same light everywhere.
+    let mut flat = Scene::new(
+        &gpu,
+        &medium("diffuse: Lambert, specular: (reflectance_at_normal: 0)"),
+        &[block([0.05; 3])],
+    );
+    let [found, _] = flat.middle([0.6, 0.0, 0.8], Bounds::new([0.0; 3], 0.1));
+    assert!((found[0] / (0.8 * PI) - 1.0).abs() < 2e-3, "{found:?}");
+}
