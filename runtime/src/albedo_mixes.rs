@@ -3,7 +3,7 @@
 use subsurface_kernel::KernelParts;
 use subsurface_kernel::constants::MOST_MATERIALS;
 
-use crate::bindings::kernel::MaterialSurface;
+use crate::bindings::kernel::SURFACE_ALBEDO_MIX_OFFSET;
 use crate::wgpu::{self, util::DeviceExt as _};
 
 /// `surface_albedo_mix` of all materials, on the device.
@@ -19,8 +19,7 @@ impl AlbedoMixes {
         // What all materials have stands first in each row.
         let rows = kernel.material_rows().chunks_exact(kernel.module().row_stride() as usize);
         let of_row = |row: &[u8]| {
-            bytemuck::pod_read_unaligned::<MaterialSurface>(&row[..size_of::<MaterialSurface>()])
-                .surface_albedo_mix
+            bytemuck::pod_read_unaligned::<f32>(&row[SURFACE_ALBEDO_MIX_OFFSET..][..size_of::<f32>()])
         };
         Self::with(device, rows.map(of_row))
     }

@@ -1,6 +1,6 @@
 //! What is clear: it absorbs light, and does not scatter it.
 
-use crate::bindings::clear::ClearObject;
+use crate::bindings::clear::{ClearObject, ObjectTransform};
 
 /// Largest absorption, per mm: times no way it is still 0.
 const MOST_ABSORPTION: f32 = 1e20;
@@ -34,9 +34,10 @@ impl Default for ClearMaterial {
 }
 
 impl ClearMaterial {
-    /// As the shaders take it, but for where it stands.
-    pub(crate) fn uniform(&self, coverage: f32) -> ClearObject {
+    /// As the shaders take it.
+    pub(crate) fn uniform(&self, transform: ObjectTransform, coverage: f32) -> ClearObject {
         ClearObject {
+            transform,
             absorption_per_mm: self
                 .absorption_per_mm
                 .map(|absorption| absorption.clamp(0.0, MOST_ABSORPTION)),
@@ -44,7 +45,7 @@ impl ClearMaterial {
             roughness: self.roughness.clamp(0.0, 1.0),
             shell_thickness_mm: self.shell_thickness_mm.unwrap_or_default().max(0.0),
             coverage: coverage.clamp(0.0, 1.0),
-            ..bytemuck::Zeroable::zeroed()
+            padding_140: [0; 4],
         }
     }
 }

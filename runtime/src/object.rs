@@ -217,7 +217,7 @@ impl Object {
             specular_strength_factor: surface.specular_strength_factor.max(0.0),
             mean_free_path_scale: surface.mean_free_path_scale_factor,
             thickness_mm: surface.thickness_mm.max(0.0),
-            ..bytemuck::Zeroable::zeroed()
+            padding_116: [0; 12],
         };
         let uniform = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
             label: Some("Object uniform"),
@@ -261,10 +261,9 @@ impl Object {
             || surface.thickness_mm > 0.0;
         let material = surface.material.filter(|_| surface.clear.is_none());
         let clear_uniform = surface.clear.map(|clear| {
-            let own = clear::ClearObject {
-                transform: bytemuck::cast(transform(surface.world_from_object)),
-                ..clear.uniform(surface.clear_coverage)
-            };
+            // One type by two names: each module has its own.
+            let transform = bytemuck::cast(transform(surface.world_from_object));
+            let own = clear.uniform(transform, surface.clear_coverage);
             device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
                 label: Some("Object clear uniform"),
                 contents: bytemuck::bytes_of(&own),

@@ -9,7 +9,7 @@ struct ClearExitFrame {
 }
 
 @group(0) @binding(0) var<uniform> clear_exit_frame: ClearExitFrame;
-@group(1) @binding(0) var<uniform> clear_exit_transform: ObjectTransform;
+@group(1) @binding(0) var<uniform> object_transform: ObjectTransform;
 
 struct ClearExitInterpolated {
     @builtin(position) clip_position: vec4f,
@@ -18,7 +18,7 @@ struct ClearExitInterpolated {
 
 @vertex
 fn clear_exit_vertex(@location(0) position: vec3f) -> ClearExitInterpolated {
-    let world = world_position(clear_exit_transform, position);
+    let world = world_position(object_transform, position);
     return ClearExitInterpolated(clear_exit_frame.clip_from_world * vec4f(world, 1.0), world);
 }
 

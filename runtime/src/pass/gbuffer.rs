@@ -257,7 +257,7 @@ impl GBufferPass {
             transmission: view.transmission,
             environment: environment.uniform(view.environment_intensity, view.environment_turn_radians),
             millimetres_per_world_unit: view.millimetres_per_world_unit,
-            ..bytemuck::Zeroable::zeroed()
+            padding_260: [0; 12],
         };
         queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&frame));
         self.size = view.size;

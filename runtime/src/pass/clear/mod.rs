@@ -180,7 +180,7 @@ impl ClearPass {
             // One type by two names: each module has its own.
             environment: bytemuck::cast(environment),
             pixels_at_one: 0.5 * projection.y_axis.y * view.size.height as f32,
-            ..bytemuck::Zeroable::zeroed()
+            padding_276: [0; 12],
         };
         queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&frame));
         self.exit.prepare(queue, clip_from_world, view.camera.position);
