@@ -1,28 +1,31 @@
 //! Puts the files of a set together: bases, profiles by name, and what only several files together can get wrong.
 
 mod chain;
+mod checks;
+mod clear;
 mod cycle;
+mod inherit;
 mod lobe;
 
 use std::collections::{BTreeMap, BTreeSet};
-
-use subsurface_profile::{Channel, Length, Medium};
 
 use crate::clear::ClearMaterial;
 use crate::diagnostics::Diagnostic;
 use crate::draft::Draft;
 use crate::identifier::{self, camel_case, screaming_case};
 use crate::lint;
-use crate::material::{Coupling, Material, ResolvedProfile, SecondLobe, Transmittance};
+use crate::material::{Material, ResolvedProfile, Transmittance};
 use crate::quality_request::QualityRequest;
 use crate::schema::{
-    ClearFile, DiffuseGiven, Given, LengthGiven, MaterialFile, OrMedium, ProfileExpression, ProfileFile, SET,
-    SetFile, Triple, clear_medium, reflectance_at_normal, rounded,
+    ClearFile, Given, MaterialFile, OrMedium, ProfileExpression, ProfileFile, SET, SetFile, clear_medium,
+    reflectance_at_normal,
 };
 use crate::source::{FileId, Span, Spanned};
 use crate::suggestion::{closest, list, shortened};
 use subsurface_kernel::Estimator;
 use subsurface_kernel::Rejection;
+
+use inherit::Inherited;
 
 pub(crate) use chain::{ChainEnd, chain, unknown_profile};
 use chain::{check_aliases, profile_names};
@@ -76,27 +79,6 @@ pub(crate) struct Resolution {
     users: BTreeMap<FileId, Vec<(String, Span)>>,
 }
 
-/// The fields of a material, its own or those of its nearest base that gives them.
-#[derive(Clone, Copy)]
-struct Inherited<'a> {
-    profile: &'a Given<(ProfileExpression, Span)>,
-    length: &'a Given<OrMedium<LengthGiven>>,
-    surface_albedo: &'a Given<OrMedium<Triple>>,
-    surface_albedo_mix: &'a Given<Spanned<f64>>,
-    refractive_index: &'a Given<Spanned<f64>>,
-    reflectance_at_normal: &'a Given<Spanned<f64>>,
-    roughness: &'a Given<Spanned<f64>>,
-    coupling: &'a Given<Coupling>,
-    second_lobe: &'a Given<Option<SecondLobe>>,
-    diffuse: &'a Given<Spanned<DiffuseGiven>>,
-    transmission_strength: &'a Given<Spanned<f64>>,
-    transmission_diffused: &'a Given<bool>,
-    transmittance: &'a Given<Spanned<Transmittance>>,
-    thin_thickness_mm: &'a Given<Spanned<f64>>,
-    /// Whether every base exists.
-    complete: bool,
-}
-
 impl Resolution {
     /// Resolves all names among `files`.
     pub(crate) fn of(files: &Files) -> Self {
@@ -124,32 +106,6 @@ impl Resolution {
         resolution.diagnostics.extend(alias_errors);
         resolution.choose(&files.sets);
         resolution
-    }
-
-    /// Takes the clear materials; reports names that are taken.
-    fn take_clear(&mut self, files: &Files) {
-        let mut names: BTreeMap<String, &Span> = BTreeMap::new();
-        let scattering = files.materials.iter().map(|material| &material.name);
-        for name in scattering.chain(files.clear.iter().map(|clear| &clear.name)) {
-            if let Some(first) = names.get(&screaming_case(&name.value)) {
-                // Two materials that scatter are reported elsewhere.
-                if files.clear.iter().any(|clear| std::ptr::eq(&clear.name, name)) {
-                    self.diagnostics.push(
-                        Diagnostic::error(format!(
-                            "two materials have the name `{}`",
-                            shortened(&name.value)
-                        ))
-                        .label(name.span.clone(), "this name is taken")
-                        .secondary((*first).clone(), "first used here")
-                        .help("rename one of the files, or give one a `name: \"…\"` of its own"),
-                    );
-                }
-                continue;
-            }
-            names.insert(screaming_case(&name.value), &name.span);
-        }
-        self.clear = files.clear.iter().filter_map(|clear| clear.material.clone()).collect();
-        self.clear.sort_by(|a, b| a.name.cmp(&b.name));
     }
 
     /// Takes what the set's own file chooses; reports a second such file.
@@ -256,67 +212,6 @@ impl Resolution {
             self.diagnostics
                 .push(diagnostic.help("remove `base` from one of these materials and give it all fields"));
         }
-    }
-
-    fn inherit<'a>(
-        &mut self,
-        by_name: &BTreeMap<&str, &'a MaterialFile>,
-        material: &'a MaterialFile,
-    ) -> Inherited<'a> {
-        fn first<'a, T>(own: &'a Given<T>, base: &'a Given<T>) -> &'a Given<T> {
-            if own.is_absent() { base } else { own }
-        }
-        let mut inherited = Inherited {
-            profile: &material.profile,
-            length: &material.length,
-            surface_albedo: &material.surface_albedo,
-            surface_albedo_mix: &material.surface_albedo_mix,
-            refractive_index: &material.refractive_index,
-            reflectance_at_normal: &material.reflectance_at_normal,
-            roughness: &material.roughness,
-            coupling: &material.coupling,
-            second_lobe: &material.second_lobe,
-            diffuse: &material.diffuse,
-            transmission_strength: &material.transmission_strength,
-            transmission_diffused: &material.transmission_diffused,
-            transmittance: &material.transmittance,
-            thin_thickness_mm: &material.thin_thickness_mm,
-            complete: true,
-        };
-        let mut seen = BTreeSet::from([material.file]);
-        let mut current = material;
-        loop {
-            let base = match &current.base {
-                Given::Absent => return inherited,
-                Given::Bad => break,
-                Given::Value(base) => base,
-            };
-            let Some(next) = by_name.get(base.value.as_str()) else { break };
-            if !seen.insert(next.file) {
-                break;
-            }
-            self.depends(material.file, next.file);
-            inherited = Inherited {
-                profile: first(inherited.profile, &next.profile),
-                length: first(inherited.length, &next.length),
-                surface_albedo: first(inherited.surface_albedo, &next.surface_albedo),
-                surface_albedo_mix: first(inherited.surface_albedo_mix, &next.surface_albedo_mix),
-                refractive_index: first(inherited.refractive_index, &next.refractive_index),
-                reflectance_at_normal: first(inherited.reflectance_at_normal, &next.reflectance_at_normal),
-                roughness: first(inherited.roughness, &next.roughness),
-                coupling: first(inherited.coupling, &next.coupling),
-                second_lobe: first(inherited.second_lobe, &next.second_lobe),
-                diffuse: first(inherited.diffuse, &next.diffuse),
-                transmission_strength: first(inherited.transmission_strength, &next.transmission_strength),
-                transmission_diffused: first(inherited.transmission_diffused, &next.transmission_diffused),
-                transmittance: first(inherited.transmittance, &next.transmittance),
-                thin_thickness_mm: first(inherited.thin_thickness_mm, &next.thin_thickness_mm),
-                complete: true,
-            };
-            current = next;
-        }
-        inherited.complete = false;
-        inherited
     }
 
     /// The material with everything looked up; `None` when something was wrong, which has been reported then.
@@ -470,80 +365,6 @@ impl Resolution {
             // Reported where the last file of the chain is checked.
             ChainEnd::Unknown | ChainEnd::Broken => None,
         }
-    }
-
-    /// Whether the given length is one that the profile can use.
-    fn check_length(
-        &mut self,
-        profile: &ResolvedProfile,
-        length: &LengthGiven,
-        surface_albedo: &Triple,
-        profile_name: Option<&Span>,
-    ) -> bool {
-        let scales = profile.model.dependence().on_length();
-        if !scales || length.kind == profile.model.length() || length.kind == Length::MeanFreePath {
-            return true; // a mean free path given as the diffuse one is a lint: the field's name is the usual one
-        }
-        let converted = [0, 1, 2].map(|index| {
-            let factor = lint::diffuse_per_mean_free_path(surface_albedo.values[index]);
-            rounded(length.value.values[index] / factor)
-        });
-        let mut diagnostic = Diagnostic::error("this profile takes the mean free path, not the diffuse one")
-            .label(length.key.clone(), "the profile is not parametrized by this length")
-            .help(format!(
-                "with ℓ = ℓ_d √(3 (1 - α)/(2 - α)) and this surface albedo, write `mean_free_path_mm: ({})`",
-                converted.join(", ")
-            ))
-            .help("or use a profile that takes it: `\"burley_dmfp\"`");
-        if let Some(span) = profile_name {
-            diagnostic = diagnostic.secondary(span.clone(), "the profile is named here");
-        }
-        self.diagnostics.push(diagnostic);
-        false
-    }
-
-    /// Whether the model has a profile for this very medium.
-    fn check_profile(
-        &mut self,
-        profile: &ResolvedProfile,
-        length: &LengthGiven,
-        surface_albedo: &Triple,
-        profile_name: Option<&Span>,
-    ) -> bool {
-        let error = Channel::ALL.into_iter().find_map(|channel| {
-            let index = channel.index();
-            match Medium::new(surface_albedo.values[index], length.value.values[index]) {
-                Ok(medium) => {
-                    profile.model.profile(medium, channel).err().map(|error| (index, error.to_string()))
-                }
-                Err(error) => Some((index, error.to_string())),
-            }
-        });
-        let Some((index, error)) = error else { return true };
-        let mut diagnostic = Diagnostic::error(format!("this material has no profile: {error}"))
-            .label(profile.span.clone(), "the model fails for this medium")
-            .secondary(surface_albedo.spans[index].clone(), "at this surface albedo")
-            .secondary(length.value.spans[index].clone(), "and this length")
-            .help("change the coefficients of the model, or use a published profile");
-        if let Some(span) = profile_name {
-            diagnostic = diagnostic.secondary(span.clone(), "used here");
-        }
-        self.diagnostics.push(diagnostic);
-        false
-    }
-
-    /// Whether the law of transmittance is one that a sheet can have.
-    fn check_thin(&mut self, law: Option<&Spanned<Transmittance>>, thin: Option<&Spanned<f64>>) -> bool {
-        let (Some(law), Some(thin)) = (law.filter(|law| law.value == Transmittance::Profile), thin) else {
-            return true;
-        };
-        self.diagnostics.push(
-            Diagnostic::error("a thin sheet lets through what a slab does")
-                .label(law.span.clone(), "this law is for what is thick")
-                .secondary(thin.span.clone(), "the sheet is given here")
-                .help("remove `transmittance: Profile`, or remove `thin`"),
-        );
-        false
     }
 
     fn depends(&mut self, file: FileId, on: FileId) {

@@ -178,18 +178,16 @@ impl Object {
     ) -> Result<Self, TexelsError> {
         let white = TexturePixels::new(1, 1, &[255; 4]);
         let flat = TexturePixels::new(1, 1, &[128, 128, 255, 255]);
-        let colour = surface.surface_albedo.unwrap_or(white);
-        let colour = colour.upload(device, queue, Encoding::Srgb, "Object surface albedo")?;
-        let normals = surface.normals.unwrap_or(flat);
-        let normals = normals.upload(device, queue, Encoding::Linear, "Object normals")?;
-        let roughness = surface.roughness.unwrap_or(white);
-        let roughness = roughness.upload(device, queue, Encoding::Linear, "Object roughness")?;
-        let strength = surface.specular_strength.unwrap_or(white);
-        let strength = strength.upload(device, queue, Encoding::Linear, "Object specular strength")?;
-        let scale = surface.mean_free_path_scale.unwrap_or(white);
-        let scale = scale.upload(device, queue, Encoding::Linear, "Object mean free path scale")?;
-        let thickness = surface.thickness.unwrap_or(white);
-        let thickness = thickness.upload(device, queue, Encoding::Linear, "Object thickness")?;
+        let upload = |given: Option<TexturePixels<'_>>, otherwise: TexturePixels<'_>, encoding, label| {
+            given.unwrap_or(otherwise).upload(device, queue, encoding, label)
+        };
+        let linear = Encoding::Linear;
+        let colour = upload(surface.surface_albedo, white, Encoding::Srgb, "Object surface albedo")?;
+        let normals = upload(surface.normals, flat, linear, "Object normals")?;
+        let roughness = upload(surface.roughness, white, linear, "Object roughness")?;
+        let strength = upload(surface.specular_strength, white, linear, "Object specular strength")?;
+        let scale = upload(surface.mean_free_path_scale, white, linear, "Object mean free path scale")?;
+        let thickness = upload(surface.thickness, white, linear, "Object thickness")?;
         let sampler = device.create_sampler(&wgpu::SamplerDescriptor {
             label: Some("Object sampler"),
             address_mode_u: wgpu::AddressMode::Repeat,

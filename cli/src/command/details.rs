@@ -35,11 +35,12 @@ impl FromStr for Detail {
 /// What a scene's surfaces have beside colours and normals.
 #[derive(Clone, Debug, Default, Args)]
 pub struct DetailArguments {
-    /// Factor on the mean free path of all objects that scatter; with an image, whose red channel lies over the texture coordinates, a
-    /// factor on that, such as 1,density.png.
+    /// Factor on the mean free path of all objects that scatter; with an image, whose red channel lies over the texture
+    /// coordinates, a factor on that, such as 1,density.png.
     #[arg(long, value_name = "FACTOR[,FILE.png]", allow_hyphen_values = true)]
     pub mean_free_path_scale: Option<Detail>,
-    /// Thickness of all objects that scatter, in mm; with an image, that where its green channel is 1, such as 5,thickness.png.
+    /// Thickness of all objects that scatter, in mm; with an image, that where its green channel is 1, such as
+    /// 5,thickness.png.
     ///
     /// A sheet is as thick in place of what its material says. Through a solid, light from all around comes so (--ambient,
     /// --environment), and that of lights beyond the four that have shadow maps, and its near side sends back less of that;
@@ -104,10 +105,7 @@ fn read_image(path: &Path) -> Result<Image, Failure> {
         )
     };
     let bytes = std::fs::read(path).map_err(|reason| unreadable(reason.to_string()))?;
-    // The format is told by the content: file names are often wrong.
-    let image =
-        image::load_from_memory(&bytes).map_err(|reason| unreadable(reason.to_string()))?.into_rgba8();
-    Ok(Image { width: image.width(), height: image.height(), rgba: image.into_raw() })
+    Image::decoded(&bytes).map_err(|reason| unreadable(reason.to_string()))
 }
 
 #[cfg(test)]

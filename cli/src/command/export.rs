@@ -13,11 +13,12 @@ use crate::say;
 use crate::scene::camera::Size;
 use crate::scene::environment::Environment;
 use crate::scene::light::Light;
-use crate::scene::{ClearSurface, Object, Surface};
+use crate::scene::{Object, Surface};
 use clap::{Args, ValueEnum};
 use std::fmt;
 use std::path::PathBuf;
 use subsurface_codegen::Material;
+use subsurface_runtime::ClearMaterial;
 
 /// Arguments of `subsurface export`.
 #[derive(Debug, Args)]
@@ -287,7 +288,7 @@ fn medium(
 /// What is clear: a medium that scatters nothing.
 fn clear_medium(
     object: &Object,
-    clear: &ClearSurface,
+    clear: &ClearMaterial,
     lights: &[Light],
     differences: &mut Vec<Difference>,
 ) -> (Medium, Boundary) {

@@ -2,10 +2,11 @@
 
 use crate::failure::Failure;
 use crate::progress::Spinner;
-use crate::scene::{ClearSurface, Scene};
+use crate::scene::Scene;
 use crate::suggestion::suggest;
 use std::path::Path;
 use subsurface_codegen::{ClearMaterial, Compilation, Compiler, Report};
+use subsurface_runtime as runtime;
 
 /// The directory when none is given.
 pub(super) const DEFAULT_DIRECTORY: &str = "materials";
@@ -64,13 +65,13 @@ pub(crate) enum Chosen {
     /// The number of a material that scatters.
     Scattering(u32),
     /// A material that is clear.
-    Clear(ClearSurface),
+    Clear(runtime::ClearMaterial),
 }
 
 /// The material `name`, scattering or clear, or an error that lists the others.
 pub(super) fn chosen(compilation: &Compilation, name: &str) -> Result<Chosen, Failure> {
     match compilation.set.clear.iter().find(|clear| clear.name == name) {
-        Some(clear) => Ok(Chosen::Clear(clear_surface(clear))),
+        Some(clear) => Ok(Chosen::Clear(on_device(clear))),
         None => match compilation.set.index_of(name) {
             Some(index) => Ok(Chosen::Scattering(index as u32)),
             None => {
@@ -82,13 +83,12 @@ pub(super) fn chosen(compilation: &Compilation, name: &str) -> Result<Chosen, Fa
     }
 }
 
-fn clear_surface(clear: &ClearMaterial) -> ClearSurface {
-    ClearSurface {
+fn on_device(clear: &ClearMaterial) -> runtime::ClearMaterial {
+    runtime::ClearMaterial {
         absorption_per_mm: clear.absorption_per_mm.map(|absorption| absorption as f32),
         refractive_index: clear.refractive_index as f32,
         roughness: clear.roughness as f32,
         shell_thickness_mm: clear.shell_thickness_mm.map(|thickness| thickness as f32),
-        coverage: 1.0,
     }
 }
 

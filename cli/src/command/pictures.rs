@@ -5,7 +5,7 @@ use super::view::load_scene;
 use crate::failure::Failure;
 use crate::picture::comparison::{Comparison, map};
 use crate::picture::contact_sheet::{Tile, compose};
-use crate::picture::{DisplayPicture, LinearPicture, file, write_png};
+use crate::picture::{DisplayPicture, LinearPicture, file, write_small_png};
 use crate::picture_bench::{Bench, TruthCase, Variant, read};
 use crate::progress::bar;
 use crate::say;
@@ -74,7 +74,7 @@ pub fn run(arguments: &PicturesArguments) -> Result<(), Failure> {
     if let Some(path) = &arguments.sheet
         && let Some(sheet) = compose("no subsurface / picture / truth / error", &tiles, 4)
     {
-        write_png(path, &sheet)?;
+        write_small_png(path, &sheet)?;
         say!("{}", path.display());
     }
     Ok(())

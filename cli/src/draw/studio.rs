@@ -368,13 +368,8 @@ fn objects(device: &Device, frame: &Frame<'_>) -> Result<Vec<Object>, Failure> {
             mean_free_path_scale_factor: surface.mean_free_path_scale_factor,
             thickness: surface.thickness.as_ref().map(pixels),
             thickness_mm: surface.thickness_mm,
-            clear: surface.clear.map(|clear| runtime::ClearMaterial {
-                absorption_per_mm: clear.absorption_per_mm,
-                refractive_index: clear.refractive_index,
-                roughness: clear.roughness,
-                shell_thickness_mm: clear.shell_thickness_mm,
-            }),
-            clear_coverage: surface.clear.map_or(1.0, |clear| clear.coverage),
+            clear: surface.clear,
+            clear_coverage: surface.clear_coverage,
             ..Default::default()
         };
         let made = Object::new(&device.device, &device.queue, geometry, &descriptor);

@@ -12,6 +12,9 @@ const LIT: f32 = 0.01;
 /// Coverage above which no ray of a pixel missed.
 const COVERED: f32 = 0.999;
 
+/// Steps of colour on either side of a map.
+const MAP_STEPS: f32 = 8.0;
+
 /// Error relative to the mean of the truth whose colour on the map is full.
 const FULL_COLOUR: f32 = 0.25;
 
@@ -161,7 +164,8 @@ pub fn map(picture: &LinearPicture, truth: &Truth) -> DisplayPicture {
         }
         let error = light(&picture.pixels[index]) - light(&truth.picture.pixels[index]);
         let part = (error / (FULL_COLOUR * mean.max(f32::MIN_POSITIVE))).clamp(-1.0, 1.0);
-        let rest = (255.0 * (1.0 - part.abs()) + 0.5) as u8;
+        // In steps: what is finer is the truth's noise, and makes files large.
+        let rest = (255.0 * (1.0 - (MAP_STEPS * part.abs()).round() / MAP_STEPS) + 0.5) as u8;
         if part > 0.0 { [255, rest, rest] } else { [rest, rest, 255] }
     };
     DisplayPicture { size: picture.size, pixels: (0..picture.pixels.len()).map(colour).collect() }

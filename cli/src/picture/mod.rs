@@ -11,6 +11,8 @@ mod png;
 
 pub use error::PictureError;
 pub use png::write_png;
+#[cfg(feature = "analysis")]
+pub use png::write_small_png;
 
 use crate::scene::camera::Size;
 

@@ -10,6 +10,8 @@ pub mod shapes;
 pub mod texture_orientation;
 mod texture_seam;
 
+use subsurface_runtime::ClearMaterial;
+
 use crate::picture::linear_from_srgb;
 
 /// Scenes are in metres, materials in millimetres.
@@ -147,7 +149,9 @@ pub struct Surface {
     /// Name of the material in the file.
     pub material_name: Option<String>,
     /// Absorbs light, and does not scatter it; in place of a material of the set.
-    pub clear: Option<ClearSurface>,
+    pub clear: Option<ClearMaterial>,
+    /// Share of each pixel that it covers where it is clear, in [0, 1].
+    pub clear_coverage: f32,
     /// Sends nothing back and lets nothing through: it only casts shadows.
     pub is_black: bool,
 }
@@ -169,24 +173,10 @@ impl Default for Surface {
             thickness_mm: 0.0,
             material_name: None,
             clear: None,
+            clear_coverage: 1.0,
             is_black: false,
         }
     }
-}
-
-/// What is clear, and how much of each pixel it covers.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ClearSurface {
-    /// Absorption coefficient per mm, linear red, green, blue.
-    pub absorption_per_mm: [f32; 3],
-    /// Refractive index over that of air.
-    pub refractive_index: f32,
-    /// Perceptual roughness of its boundary.
-    pub roughness: f32,
-    /// Thickness of its walls (mm), where it is hollow.
-    pub shell_thickness_mm: Option<f32>,
-    /// Share of each pixel that it covers, in [0, 1].
-    pub coverage: f32,
 }
 
 /// An RGBA8 image; whether its numbers are sRGB or linear is said where it is used.
@@ -201,6 +191,12 @@ pub struct Image {
 }
 
 impl Image {
+    /// Decodes a file's bytes; the format is told by the content, since names and MIME types are often wrong.
+    pub fn decoded(bytes: &[u8]) -> Result<Self, image::ImageError> {
+        let image = image::load_from_memory(bytes)?.into_rgba8();
+        Ok(Self { width: image.width(), height: image.height(), rgba: image.into_raw() })
+    }
+
     /// Mean of red, green and blue in linear light, of an image whose numbers are sRGB.
     pub fn mean_linear(&self) -> [f64; 3] {
         let mut counts = [[0u64; 256]; 3];
@@ -215,9 +211,7 @@ impl Image {
             counts.into_iter().enumerate().map(light).sum::<f64>() / texels
         })
     }
-}
 
-impl Image {
     /// Mean of a channel, in [0, 1], of an image whose numbers are linear.
     pub fn mean_linear_code(&self, channel: usize) -> f64 {
         let texels = self.rgba.chunks_exact(4);

@@ -2,7 +2,9 @@
 
 use super::Place;
 use super::warning::GltfWarning;
-use crate::scene::{ClearSurface, MILLIMETRES_PER_METRE};
+use crate::scene::MILLIMETRES_PER_METRE;
+use subsurface_codegen::ClearMaterial as Absorbing;
+use subsurface_runtime::ClearMaterial;
 
 /// Refractive index where a file gives none.
 const DEFAULT_INDEX: f32 = 1.5;
@@ -10,15 +12,13 @@ const DEFAULT_INDEX: f32 = 1.5;
 /// Thickness of a wall whose colour stands for what it absorbs, mm: any will do.
 const WALL_MM: f32 = 1.0;
 
-/// Least colour that has a finite absorption, as of `Clear(…)`.
-const LEAST_COLOUR: f32 = 1e-6;
-
-/// What is clear of a material whose transmission is more than half. What is approximated is a warning.
-pub(super) fn clear_surface(
+/// What is clear of a material whose transmission is more than half, and how much of each pixel it covers. What is
+/// approximated is a warning.
+pub(super) fn clear_material(
     material: &gltf::Material<'_>,
     place: &Place,
     warnings: &mut Vec<GltfWarning>,
-) -> Option<ClearSurface> {
+) -> Option<(ClearMaterial, f32)> {
     let transmission = material.transmission()?;
     let factor = transmission.transmission_factor();
     if factor == 0.0 {
@@ -42,7 +42,8 @@ pub(super) fn clear_surface(
         }
         if value.is_nan() { least } else { value.clamp(least, most) }
     };
-    let absorption_of = |colour: f32, at_mm: f32| -colour.clamp(LEAST_COLOUR, 1.0).ln() / at_mm + 0.0;
+    let absorption_of =
+        |colour: f32, at_mm: f32| Absorbing::absorption_of(f64::from(colour), f64::from(at_mm)) as f32;
     // A volume absorbs by its own colour; a wall is coloured by the base colour.
     let (absorption_per_mm, shell_thickness_mm) = match &volume {
         Some(volume) => {
@@ -66,11 +67,6 @@ pub(super) fn clear_surface(
     if has_tint || colour.base_color_texture().is_some() {
         warnings.push(GltfWarning::TintedVolume { place: place.clone() });
     }
-    Some(ClearSurface {
-        absorption_per_mm,
-        refractive_index,
-        roughness,
-        shell_thickness_mm,
-        coverage: if material.alpha_mode() == gltf::material::AlphaMode::Blend { alpha } else { 1.0 },
-    })
+    let coverage = if material.alpha_mode() == gltf::material::AlphaMode::Blend { alpha } else { 1.0 };
+    Some((ClearMaterial { absorption_per_mm, refractive_index, roughness, shell_thickness_mm }, coverage))
 }

@@ -141,6 +141,7 @@ impl Loader<'_> {
         let scale = world_from_node.determinant().abs().cbrt();
         let thickness_mm =
             volume.map_or(0.0, |volume| volume.thickness_factor() * scale * MILLIMETRES_PER_METRE);
+        let clear = clear::clear_material(material, place, &mut self.warnings);
         Ok(Surface {
             base_colour_factor: colour.base_color_factor(),
             base_colour,
@@ -152,7 +153,8 @@ impl Loader<'_> {
             specular_strength_factor: specular.map_or(1.0, |specular| specular.specular_factor()),
             thickness,
             thickness_mm,
-            clear: clear::clear_surface(material, place, &mut self.warnings),
+            clear: clear.map(|(clear, _)| clear),
+            clear_coverage: clear.map_or(1.0, |(_, coverage)| coverage),
             material_name: material.name().map(str::to_owned),
             ..Surface::default()
         })

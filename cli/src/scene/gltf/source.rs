@@ -107,10 +107,7 @@ impl Sources {
                 &fetched
             }
         };
-        // The format is told by the content: file names and MIME types are often wrong.
-        let image =
-            image::load_from_memory(bytes).map_err(|reason| unreadable(reason.to_string()))?.into_rgba8();
-        Ok(Image { width: image.width(), height: image.height(), rgba: image.into_raw() })
+        Image::decoded(bytes).map_err(|reason| unreadable(reason.to_string()))
     }
 }
 
